@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tensor-product B-splines over a face's own (u, v): surfaces, control lattices and displacement fields.
+
+Everything is non-rational. A periodic direction is stored *unrolled*: its knot vector continues periodically on both
+sides and its first ``degree`` rows of control points are repeated at the end, so that scipy evaluates it as any other
+spline and only the parameter has to be wrapped.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+
+Array = NDArray[np.float64]
+DEGREE = 3
+
+
+def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) -> Array:
+    """Uniform clamped knot vector of ``count`` control points over [start, end]; shape (count + degree + 1,)."""
+    if count <= degree:
+        raise ValueError(f"a spline of degree {degree} needs at least {degree + 1} control points, not {count}")
+    inner = np.linspace(start, end, count - degree + 1)
+    return np.concatenate([np.full(degree, start), inner, np.full(degree, end)])
+
+
+def greville(knots: Array, degree: int = DEGREE) -> Array:
+    """Greville abscissae, the means of ``degree`` successive inner knots (NURBS Book, eq. 9.8 with averages)."""
+    windows = np.lib.stride_tricks.sliding_window_view(knots[1:-1], degree)
+    return windows.mean(axis=1)
+
+
+def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int = 0) -> Array:
+    """Dense matrix of the basis functions' values (or derivatives) at ``x``; shape (len(x), len(knots) - degree - 1).
+
+    Meant for grids, where it is small. Scattered points go through `basis_rows`.
+    """
+    count = len(knots) - degree - 1
+    if derivative == 0:
+        return np.asarray(BSpline.design_matrix(x, knots, degree).toarray())
+    return np.asarray(BSpline(knots, np.eye(count), degree)(x, nu=derivative))
+
+
+def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np.intp], Array]:
+    """The ``degree + 1`` basis functions that do not vanish at each x.
+
+    Returns
+    -------
+    first : (n,) index of the first of them
+    values : (n, degree + 1)
+    """
+    rows = BSpline.design_matrix(x, knots, degree)
+    return rows.indices[:: degree + 1].astype(np.intp), rows.data.reshape(-1, degree + 1)
+
+
+@dataclass(frozen=True)
+class SplineSurface:
+    """A tensor-product B-spline over (u, v): a surface in mm, or a displacement field on it.
+
+    Attributes
+    ----------
+    knots_u, knots_v : flat knot vectors, (nu + degree_u + 1,) and (nv + degree_v + 1,)
+    control_points : (nu, nv, dim), in mm
+    periodic_u, periodic_v : the direction is unrolled (see the module text) and the parameter is wrapped
+    """
+
+    knots_u: Array
+    knots_v: Array
+    control_points: Array
+    degree_u: int = DEGREE
+    degree_v: int = DEGREE
+    periodic_u: bool = False
+    periodic_v: bool = False
+
+    @property
+    def range(self) -> tuple[float, float, float, float]:
+        """(u0, u1, v0, v1), the parameter box."""
+        ku, kv, pu, pv = self.knots_u, self.knots_v, self.degree_u, self.degree_v
+        return float(ku[pu]), float(ku[-pu - 1]), float(kv[pv]), float(kv[-pv - 1])
+
+    def inside(self, uv: Array) -> Array:
+        """(n, 2) parameters brought into the range: wrapped where periodic, clipped elsewhere."""
+        u0, u1, v0, v1 = self.range
+        u = u0 + np.mod(uv[:, 0] - u0, u1 - u0) if self.periodic_u else np.clip(uv[:, 0], u0, u1)
+        v = v0 + np.mod(uv[:, 1] - v0, v1 - v0) if self.periodic_v else np.clip(uv[:, 1], v0, v1)
+        return np.stack([u, v], axis=1)
+
+    def __call__(self, uv: Array) -> Array:
+        """Values at scattered parameters: (n, 2) to (n, dim). Parameters outside are wrapped or clipped."""
+        uv = self.inside(np.asarray(uv, dtype=float))
+        first_u, bu = basis_rows(self.knots_u, uv[:, 0], self.degree_u)
+        first_v, bv = basis_rows(self.knots_v, uv[:, 1], self.degree_v)
+        result = np.zeros((len(uv), self.control_points.shape[2]))
+        for a in range(self.degree_u + 1):
+            for b in range(self.degree_v + 1):
+                weight = (bu[:, a] * bv[:, b])[:, None]
+                result += weight * self.control_points[first_u + a, first_v + b]
+        return result
+
+    def on_grid(self, u: Array, v: Array) -> Array:
+        """Values on the grid u × v (inside the range): (len(u), len(v), dim)."""
+        bu = basis_matrix(self.knots_u, u, self.degree_u)
+        bv = basis_matrix(self.knots_v, v, self.degree_v)
+        return np.einsum("ui,ijk,vj->uvk", bu, self.control_points, bv, optimize=True)
+
+    def derivative(self, du: int, dv: int) -> SplineSurface:
+        """The partial derivative, itself a B-spline of lower degree (NURBS Book, eq. 3.24)."""
+        surface = self
+        for _ in range(du):
+            points, knots = _differentiate(surface.control_points, surface.knots_u, surface.degree_u)
+            surface = SplineSurface(knots, surface.knots_v, points, surface.degree_u - 1, surface.degree_v,
+                                    surface.periodic_u, surface.periodic_v)
+        for _ in range(dv):
+            points, knots = _differentiate(surface.control_points.swapaxes(0, 1), surface.knots_v, surface.degree_v)
+            surface = SplineSurface(surface.knots_u, knots, points.swapaxes(0, 1), surface.degree_u,
+                                    surface.degree_v - 1, surface.periodic_u, surface.periodic_v)
+        return surface
+
+
+def _differentiate(points: Array, knots: Array, degree: int) -> tuple[Array, Array]:
+    span = knots[degree + 1 : -1] - knots[1 : -degree - 1]
+    scale = np.divide(degree, span, out=np.zeros_like(span), where=span > 0)
+    return np.diff(points, axis=0) * scale.reshape((-1,) + (1,) * (points.ndim - 1)), knots[1:-1]
+
+
+def same_basis(surface: SplineSurface, control_points: Array) -> SplineSurface:
+    """A spline on the knots of ``surface`` with other control points, (nu, nv, dim)."""
+    return SplineSurface(surface.knots_u, surface.knots_v, control_points, surface.degree_u, surface.degree_v,
+                         surface.periodic_u, surface.periodic_v)

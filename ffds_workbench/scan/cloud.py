@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The point cloud as the rest of the program sees it: finite points in mm."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class PointCloud:
+    """A scan, in mm.
+
+    Attributes
+    ----------
+    points : (n, 3) float64, finite
+    dropped : rows of the files that were not finite
+    unit : the unit that the files were read in: "mm", "m", "cm" or "in"
+    """
+
+    points: NDArray[np.float64]
+    dropped: int = 0
+    unit: str = "mm"
