@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What all tests share: FreeCAD on the path, the optional data folder, and ways to run the command line."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+SHARED = ROOT.parent / "shared"
+
+if str(ROOT) not in sys.path:
+    sys.path.insert(0, str(ROOT))
+
+from ffds_workbench import _freecad  # noqa: E402
+
+_freecad.activate()
+
+os.environ.setdefault("MPLBACKEND", "Agg")
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The folder of parts, scans and cases beside the checkout; the test is skipped where it is absent."""
+    if not (SHARED / "data").is_dir():
+        pytest.skip("../shared is absent: the parts and scans it holds are not part of the project")
+    return SHARED
+
+
+@pytest.fixture(scope="session")
+def shared_data(shared: Path) -> Path:
+    """``../shared/data``, or a skip."""
+    return shared / "data"
+
+
+@pytest.fixture
+def ffds(tmp_path: Path):
+    """Run the launcher: ``ffds("deviation", model, scan)`` gives the finished process (text output)."""
+
+    def run(*arguments: object, cwd: Path = tmp_path, timeout: float = 120, **options) -> subprocess.CompletedProcess:
+        return subprocess.run([str(ROOT / "ffds"), *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
+                              stdin=subprocess.DEVNULL, capture_output=True, **options)
+
+    return run
