@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Interpolates a vector function over a parameter box by a cubic spline surface: the control lattice of a face.
+
+Knots are bisected where the interpolation error asks for it, so that the lattice is as coarse as the tolerance allows.
+Numpy and scipy only; what is read from a FreeCAD surface is in ``parameters``.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+from ..registration.splines import DEGREE, Array, SplineSurface, greville
+
+GridFunction = Callable[[Array, Array], Array]
+"""f(u (m,), v (n,)) -> values on the grid, (m, n, 3)."""
+
+_CHECKS = np.array([0.21, 0.5, 0.79])
+_MOST_SITES = 60
+_DEGENERATE_ROW = 1e-7
+"""A row of control points within this box (mm) is a pole of the surface and is made exactly one point."""
+
+
+@dataclass(frozen=True)
+class ParameterBox:
+    """The (u, v) box of a face; a closed direction is a full period with a continuous slope across the seam."""
+
+    u0: float
+    u1: float
+    v0: float
+    v1: float
+    closed_u: bool = False
+    closed_v: bool = False
+
+
+@dataclass(frozen=True)
+class _Direction:
+    """One parameter direction while its knots are refined: the box side and the flat interior knots."""
+
+    start: float
+    end: float
+    interior: Array
+    closed: bool
+
+    @property
+    def knots(self) -> Array:
+        a, b = self.start, self.end
+        if not self.closed:
+            return np.concatenate([np.full(DEGREE + 1, a), self.interior, np.full(DEGREE + 1, b)])
+        one = np.concatenate([[a], self.interior])
+        return np.concatenate([one[-DEGREE:] - (b - a), one, one[: DEGREE + 1] + (b - a)])
+
+    @property
+    def sites(self) -> Array:
+        """Interpolation sites: Greville abscissae, one per free control point."""
+        x = greville(self.knots)
+        if not self.closed:
+            return np.clip(x, self.start, self.end)
+        return self.start + np.mod(x[:-DEGREE] - self.start, self.end - self.start)
+
+    @property
+    def checks(self) -> Array:
+        """Parameters inside every span, where the interpolation error is looked at; (spans, 3)."""
+        breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
+        return breaks[:-1, None] + np.diff(breaks)[:, None] * _CHECKS
+
+    def matrix(self, x: Array) -> csc_matrix:
+        """Basis functions at x, columns of repeated control points of a closed direction added up."""
+        basis = BSpline.design_matrix(x, self.knots, DEGREE).tocsc()
+        if not self.closed:
+            return basis
+        free = basis.shape[1] - DEGREE
+        fold = csc_matrix((np.ones(free + DEGREE), (np.arange(free + DEGREE), np.arange(free + DEGREE) % free)))
+        return (basis @ fold).tocsc()
+
+    def solve(self, values: Array) -> Array:
+        """Control points that interpolate values at the sites along axis 0, without the repeated ones."""
+        factor = splu(self.matrix(self.sites))
+        return factor.solve(values.reshape(len(values), -1)).reshape(values.shape)
+
+    def unroll(self, points: Array) -> Array:
+        return np.concatenate([points, points[:DEGREE]]) if self.closed else points
+
+    def refined(self, errors: Array, tolerance: float, most: int) -> _Direction:
+        """Spans whose error (spans,) exceeds the tolerance are split; the error of a cubic falls with the fourth power."""
+        breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
+        pieces = np.ceil((errors / (0.7 * tolerance)) ** 0.25).astype(int)
+        pieces = np.where(errors > tolerance, np.clip(pieces, 2, 6), 1)
+        room = most - len(self.interior)
+        if room <= 0:
+            return self
+        if (pieces - 1).sum() > room:
+            pieces = np.minimum(pieces, 2)
+            worst = np.argsort(errors)[::-1][:room]
+            pieces = np.where(np.isin(np.arange(len(pieces)), worst), pieces, 1)
+        new = [a + (b - a) * np.arange(1, k) / k for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
+        interior = np.sort(np.concatenate([self.interior, *new])) if new else self.interior
+        return _Direction(self.start, self.end, interior, self.closed)
+
+
+def _direction(start: float, end: float, seeds: Array, closed: bool) -> _Direction:
+    """Interior knots from the seeds: inside the side, not closer than 1e-6 of it, multiplicity at most 3."""
+    length = end - start
+    seeds = np.sort(np.asarray(seeds, dtype=float))
+    seeds = seeds[(seeds > start + 1e-6 * length) & (seeds < end - 1e-6 * length)]
+    kept: list[float] = []
+    for x in seeds:
+        if kept and x - kept[-1] < 1e-6 * length:
+            if kept.count(kept[-1]) < DEGREE:
+                kept.append(kept[-1])
+        else:
+            kept.append(float(x))
+    interior = np.array(kept)
+    if closed and len(interior) < 7:
+        interior = np.unique(np.concatenate([interior, start + length * np.arange(1, 8) / 8]))
+    return _Direction(start, end, interior, closed)
+
+
+def _some(x: Array) -> Array:
+    return x if len(x) <= _MOST_SITES else x[np.linspace(0, len(x) - 1, _MOST_SITES).round().astype(int)]
+
+
+def _interpolate(f: GridFunction, u: _Direction, v: _Direction) -> SplineSurface:
+    values = f(u.sites, v.sites)
+    points = u.unroll(u.solve(values))
+    points = v.unroll(v.solve(points.swapaxes(0, 1))).swapaxes(0, 1)
+    return SplineSurface(u.knots, v.knots, points, periodic_u=u.closed, periodic_v=v.closed)
+
+
+def _errors(f: GridFunction, surface: SplineSurface, u: _Direction, v: _Direction) -> tuple[Array, Array]:
+    """Largest interpolation error per span of u and per span of v, each taken at the other direction's sites."""
+    cu, cv = u.checks, v.checks
+    su, sv = _some(np.sort(u.sites)), _some(np.sort(v.sites))
+    in_u = np.linalg.norm(f(cu.ravel(), sv) - surface.on_grid(cu.ravel(), sv), axis=2)
+    in_v = np.linalg.norm(f(su, cv.ravel()) - surface.on_grid(su, cv.ravel()), axis=2)
+    return in_u.reshape(len(cu), -1).max(axis=1), in_v.T.reshape(len(cv), -1).max(axis=1)
+
+
+def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Array, tolerance: float,
+                most: int = 1200, rounds: int = 12) -> SplineSurface:
+    """Cubic spline surface that interpolates ``f`` at Greville points, its knots refined until it is close enough.
+
+    Parameters
+    ----------
+    f : the surface or displacement on a grid of parameters, in mm
+    box : parameter box; closed directions get a periodic C2 basis
+    seeds_u, seeds_v : interior knots to start from, repeated for multiplicity (a kink of ``f`` needs three)
+    tolerance : largest distance from ``f`` in mm, checked at three points in every span
+    most : largest number of interior knots in one direction
+    rounds : largest number of refinements
+
+    Notes
+    -----
+    Interpolation at Greville abscissae is well conditioned for cubics (de Boor, A Practical Guide to Splines, ch. XIII).
+    """
+    u = _direction(box.u0, box.u1, seeds_u, box.closed_u)
+    v = _direction(box.v0, box.v1, seeds_v, box.closed_v)
+    for _ in range(rounds):
+        surface = _interpolate(f, u, v)
+        error_u, error_v = _errors(f, surface, u, v)
+        if max(error_u.max(), error_v.max()) <= tolerance:
+            break
+        finer_u, finer_v = u.refined(error_u, tolerance, most), v.refined(error_v, tolerance, most)
+        if finer_u is u and finer_v is v:
+            break
+        u, v = finer_u, finer_v
+    else:
+        surface = _interpolate(f, u, v)
+    return closed_and_pinched(surface)
+
+
+def closed_and_pinched(surface: SplineSurface) -> SplineSurface:
+    """The surface with poles made exactly one point and nearly equal opposite rows made exactly equal."""
+    points = surface.control_points.copy()
+    for axis, periodic in ((0, surface.periodic_u), (1, surface.periodic_v)):
+        rows = np.moveaxis(points, axis, 0)
+        if periodic:
+            continue
+        if np.abs(rows[0] - rows[-1]).max() < _DEGENERATE_ROW:
+            rows[0] = rows[-1] = 0.5 * (rows[0] + rows[-1])
+        for end in (0, -1):
+            if np.ptp(rows[end], axis=0).max() < _DEGENERATE_ROW:
+                rows[end] = rows[end].mean(axis=0)
+    return SplineSurface(surface.knots_u, surface.knots_v, points, surface.degree_u, surface.degree_v,
+                         surface.periodic_u, surface.periodic_v)

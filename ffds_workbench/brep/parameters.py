@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a FreeCAD face says about its own (u, v): the parameter box, the trims and the knots of its surface."""
+from __future__ import annotations
+
+import numpy as np
+import Part
+
+from ..registration.splines import DEGREE, Array
+from .lattice import ParameterBox
+
+_CURVE_SAMPLES = 65
+_WIDENING = 0.002
+_SEAM_SLOPE = 1e-5
+"""Largest relative change of slope across a seam that still counts as smooth."""
+
+
+def forward(face: Part.Face) -> Part.Face:
+    """The face taken FORWARD, in which its wires tell the right pcurve of a seam."""
+    return face.reversed() if face.Orientation == "Reversed" else face
+
+
+def trims(face: Part.Face) -> tuple[tuple[Array, ...], bool]:
+    """Closed polylines in (u, v), one per wire, and whether any of the pcurves is curved."""
+    face = forward(face)
+    polylines, curved = [], False
+    for wire in face.Wires:
+        pieces = []
+        ordered = wire.OrderedEdges
+        for edge in ordered if len(ordered) >= len(wire.Edges) else wire.Edges:
+            pcurve = face.curveOnSurface(edge)
+            if pcurve is None:
+                continue
+            curve, first, last = pcurve[:3]
+            straight = type(curve).__name__ == "Line2d"
+            curved |= not straight
+            samples = [curve.value(t) for t in np.linspace(first, last, 2 if straight else _CURVE_SAMPLES)]
+            piece = np.array([(point.x, point.y) for point in samples])
+            pieces.append(piece[::-1] if edge.Orientation == "Reversed" else piece)
+        if pieces:
+            polyline = np.concatenate(pieces)
+            polylines.append(np.concatenate([polyline, polyline[:1]]))
+    return tuple(polylines), curved
+
+
+def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -> ParameterBox:
+    """The box of the trims, a little wider where they are curved, inside the surface's natural bounds.
+
+    A direction that runs over a full period is exactly that period, and closed if the slope is continuous there.
+    """
+    surface = face.Surface
+    low, high = np.concatenate(polylines).min(axis=0), np.concatenate(polylines).max(axis=0)
+    natural = np.array(surface.bounds())
+    sides, closed = [], []
+    for k, (is_periodic, is_closed) in enumerate(((surface.isUPeriodic(), surface.isUClosed()),
+                                                  (surface.isVPeriodic(), surface.isVClosed()))):
+        start, end = natural[2 * k], natural[2 * k + 1]
+        a, b = low[k], high[k]
+        full = is_closed and b - a >= (end - start) * (1 - 1e-6)
+        if full:
+            a, b = (a, a + (end - start)) if is_periodic else (start, end)
+        else:
+            margin = _WIDENING * (b - a) if curved else 0.0
+            a, b = a - margin, b + margin
+            if not is_periodic:
+                a, b = max(a, start), min(b, end)
+            elif b - a > end - start:
+                a, b = 0.5 * (a + b) - 0.5 * (end - start), 0.5 * (a + b) + 0.5 * (end - start)
+        sides += [float(a), float(b)]
+        closed.append(full)
+    box = ParameterBox(*sides)
+    return ParameterBox(*sides, closed[0] and _smooth_seam(surface, box, 0), closed[1] and _smooth_seam(surface, box, 1))
+
+
+def _smooth_seam(surface: Part.GeometrySurface, box: ParameterBox, direction: int) -> bool:
+    """Whether the first derivative across the seam is continuous."""
+    for f in (0.13, 0.5, 0.84):
+        if direction == 0:
+            v = box.v0 + f * (box.v1 - box.v0)
+            a, b = surface.getDN(box.u0, v, 1, 0), surface.getDN(box.u1, v, 1, 0)
+        else:
+            u = box.u0 + f * (box.u1 - box.u0)
+            a, b = surface.getDN(u, box.v0, 0, 1), surface.getDN(u, box.v1, 0, 1)
+        if (a - b).Length > _SEAM_SLOPE * max(a.Length, b.Length, 1e-12):
+            return False
+    return True
+
+
+def own_knots(surface: Part.GeometrySurface, box: ParameterBox) -> tuple[Array, Array]:
+    """Interior knots that the surface's own form asks for, repeated for multiplicity, in u and v.
+
+    Angles get at least eight spans a turn; knots of B-splines keep their continuity C^(p − m), as far as a cubic can
+    (multiplicity 3 − (p − m), clipped to 1…3), so that a non-rational surface of degree ≤ 3 stays exact.
+    """
+    kind = type(surface).__name__
+    if kind == "BSplineSurface":
+        return (_cubic_knots(surface.getUKnots(), surface.getUMultiplicities(), surface.UDegree),
+                _cubic_knots(surface.getVKnots(), surface.getVMultiplicities(), surface.VDegree))
+    if kind in ("OffsetSurface", "RectangularTrimmedSurface"):
+        return own_knots(surface.BasisSurface, box)
+    if kind == "SurfaceOfExtrusion":
+        return _curve_knots(surface.BasisCurve, box.u0, box.u1), np.empty(0)
+    if kind == "SurfaceOfRevolution":
+        return _angles(box.u0, box.u1), _curve_knots(surface.BasisCurve, box.v0, box.v1)
+    angular_u = kind in ("Cylinder", "Cone", "Sphere", "Toroid")
+    angular_v = kind in ("Sphere", "Toroid")
+    return (_angles(box.u0, box.u1) if angular_u else np.empty(0),
+            _angles(box.v0, box.v1) if angular_v else np.empty(0))
+
+
+def _angles(start: float, end: float) -> Array:
+    spans = max(1, int(np.ceil(8 * (end - start) / (2 * np.pi) - 1e-9)))
+    return np.linspace(start, end, spans + 1)[1:-1]
+
+
+def _curve_knots(curve: Part.Curve, start: float, end: float) -> Array:
+    kind = type(curve).__name__
+    if kind == "BSplineCurve":
+        return _cubic_knots(curve.getKnots(), curve.getMultiplicities(), curve.Degree)
+    if kind in ("Circle", "Ellipse", "ArcOfCircle", "ArcOfEllipse"):
+        return _angles(start, end)
+    if hasattr(curve, "BasisCurve"):
+        return _curve_knots(curve.BasisCurve, start, end)
+    return np.empty(0)
+
+
+def _cubic_knots(knots: list[float], multiplicities: list[int], degree: int) -> Array:
+    continuity = degree - np.asarray(multiplicities)
+    return np.repeat(np.asarray(knots, dtype=float), np.clip(DEGREE - continuity, 1, DEGREE))

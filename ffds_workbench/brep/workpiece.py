@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A Part shape read once: its faces as arrays, for registration and for the rebuild.
+
+Faces are numbered as FreeCAD numbers them; index 5 is "Face6". Everything is in mm and world coordinates.
+"""
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import Part
+
+from ..errors import InputError
+from ..registration.face import FaceGeometry
+from ..registration.splines import Array, SplineSurface
+from .lattice import ParameterBox, approximate
+from .parameters import own_knots, parameter_box, trims
+
+SURFACE_TOLERANCE = 4e-6
+"""Largest distance in mm of a face's control lattice from the face's own surface."""
+
+
+class WorkpieceFace:
+    """One face: the FreeCAD face and, read on demand, its parameter box, trims and control lattice."""
+
+    def __init__(self, index: int, face: Part.Face) -> None:
+        self.index = index
+        self.name = f"Face{index + 1}"
+        self.face = face
+        self.own_surface = face.Surface
+
+    @cached_property
+    def _trims(self) -> tuple[tuple[Array, ...], bool]:
+        polylines, curved = trims(self.face)
+        if not polylines:
+            raise InputError(f"{self.name} has no boundary in its (u, v) parameters: repair the shape first.")
+        return polylines, curved
+
+    @property
+    def trims(self) -> tuple[Array, ...]:
+        """Closed polylines in (u, v), each (k, 2)."""
+        return self._trims[0]
+
+    @cached_property
+    def box(self) -> ParameterBox:
+        return parameter_box(self.face, *self._trims)
+
+    @cached_property
+    def own_knots(self) -> tuple[Array, Array]:
+        """Interior knots that the surface's own form asks for."""
+        return own_knots(self.own_surface, self.box)
+
+    def on_grid(self, u: Array, v: Array) -> Array:
+        """The face's own, exact surface on the grid u × v: (len(u), len(v), 3)."""
+        value = self.own_surface.value
+        points = np.array([tuple(value(a, b)) for a in u.tolist() for b in v.tolist()])
+        return points.reshape(len(u), len(v), 3)
+
+    def at(self, uv: Array) -> Array:
+        """The face's own, exact surface at scattered parameters: (n, 2) to (n, 3)."""
+        value = self.own_surface.value
+        return np.array([tuple(value(a, b)) for a, b in uv.tolist()]).reshape(-1, 3)
+
+    @cached_property
+    def surface(self) -> SplineSurface:
+        """The control lattice of the face's own surface, in its own (u, v)."""
+        return approximate(self.on_grid, self.box, *self.own_knots, SURFACE_TOLERANCE)
+
+    @cached_property
+    def geometry(self) -> FaceGeometry:
+        """The face as registration sees it."""
+        outward = -1 if self.face.Orientation == "Reversed" else 1
+        return FaceGeometry(self.name, type(self.own_surface).__name__, self.surface, self.trims, outward)
+
+
+class Workpiece:
+    """A shape and its faces. Use ``read`` to make one."""
+
+    def __init__(self, shape: Part.Shape) -> None:
+        self.shape = shape
+        self.faces = tuple(WorkpieceFace(i, face) for i, face in enumerate(shape.Faces))
+
+    def geometry(self, index: int) -> FaceGeometry:
+        """Face ``index`` (0-based) as registration sees it."""
+        return self.faces[index].geometry
+
+    def index(self, name: str) -> int:
+        """0-based index of "FaceN".
+
+        Raises
+        ------
+        InputError
+            The shape has no face of that name.
+        """
+        for face in self.faces:
+            if face.name == name:
+                return face.index
+        raise InputError(f"There is no {name}: the shape has Face1 to Face{len(self.faces)}.")
+
+
+def read(shape: Part.Shape) -> Workpiece:
+    """Read a shape.
+
+    Raises
+    ------
+    InputError
+        The shape is null, or has no faces.
+    """
+    if shape is None or shape.isNull():
+        raise InputError("The shape is empty: select or load a part with faces.")
+    if not shape.Faces:
+        raise InputError("The shape has no faces: FFDS deforms faces of a solid, shell or compound.")
+    return Workpiece(shape)
