@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Stanford PLY: the vertices, in the precision of the file, whatever else the file holds.
+
+Read here and not with open3d because open3d fills the missing rows of a truncated file with numbers of its own.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+
+_TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
+          "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
+          "double": "f8", "float64": "f8"}
+_ORDER = {"binary_little_endian": "<", "binary_big_endian": ">"}
+_LONGEST_HEADER = 65536
+
+
+@dataclass
+class _Element:
+    name: str
+    count: int
+    properties: list[tuple[str, str]] = field(default_factory=list)
+    has_list: bool = False
+
+    def dtype(self, order: str) -> np.dtype:
+        return np.dtype([(name, order + kind) for name, kind in self.properties])
+
+
+def read(path: Path) -> NDArray[np.float64]:
+    """The vertices as the file holds them, (n, 3); extra properties and other elements are skipped.
+
+    Raises
+    ------
+    InputError : not a PLY file, truncated, or without x, y and z
+    """
+    data = path.read_bytes()
+    encoding, elements, start = _header(path, data)
+    before = []
+    for element in elements:
+        if element.name == "vertex":
+            break
+        before.append(element)
+    else:
+        raise InputError(f"the scan {path} has no vertices: nothing can be registered to it")
+    names = [name for name, _ in element.properties]
+    if not {"x", "y", "z"} <= set(names):
+        raise InputError(f"the scan {path} is damaged: its vertices have no x, y and z")
+    if element.has_list or len(set(names)) < len(names) or any(other.has_list for other in before):
+        raise InputError(f"the scan {path} has vertices of an unusual layout: save it as plain points")
+    if encoding == "ascii":
+        return _ascii(path, data[start:], element, sum(other.count for other in before), names)
+    order = _ORDER[encoding]
+    start += sum(other.count * other.dtype(order).itemsize for other in before)
+    dtype = element.dtype(order)
+    found = (len(data) - start) // dtype.itemsize
+    if found < element.count:
+        raise _truncated(path, element.count, max(found, 0))
+    vertices = np.frombuffer(data, dtype, element.count, start)
+    return np.stack([vertices[axis].astype(np.float64) for axis in "xyz"], axis=1)
+
+
+def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
+    """Encoding, elements and the offset of the first byte of data."""
+    end = data.find(b"end_header", 0, _LONGEST_HEADER)
+    newline = data.find(b"\n", end)
+    if not data.startswith(b"ply") or end < 0 or newline < 0:
+        raise InputError(f"the scan {path} is not a PLY file, or its header is cut off")
+    encoding = ""
+    elements: list[_Element] = []
+    try:
+        for line in data[:end].decode("latin-1").splitlines():
+            words = line.split()
+            if words[:1] == ["format"]:
+                encoding = words[1]
+            elif words[:1] == ["element"]:
+                elements.append(_Element(words[1], int(words[2])))
+            elif words[:2] == ["property", "list"]:
+                elements[-1].has_list = True
+            elif words[:1] == ["property"]:
+                elements[-1].properties.append((words[2], _TYPES[words[1]]))
+    except (IndexError, KeyError, ValueError) as error:
+        raise InputError(f"the scan {path} is damaged: its PLY header has the line '{line.strip()[:60]}'") from error
+    if encoding != "ascii" and encoding not in _ORDER:
+        raise InputError(f"the scan {path} is damaged: its PLY header names no known format")
+    return encoding, elements, newline + 1
+
+
+def _ascii(path: Path, data: bytes, element: _Element, skip: int, names: list[str]) -> NDArray[np.float64]:
+    lines = [line for line in data.decode("latin-1").splitlines() if line.strip()][skip : skip + element.count]
+    if len(lines) < element.count:
+        raise _truncated(path, element.count, len(lines))
+    if not lines:
+        return np.empty((0, 3))
+    if len(lines[-1].split()) < len(names):
+        raise _truncated(path, element.count, len(lines) - 1)
+    try:
+        return np.loadtxt(lines, usecols=[names.index(axis) for axis in "xyz"], ndmin=2, comments=None)
+    except ValueError as error:
+        raise InputError(f"the scan {path} is damaged: a vertex is not made of numbers") from error
+
+
+def _truncated(path: Path, promised: int, found: int) -> InputError:
+    return InputError(f"the scan {path} is cut off: its header promises {promised} points, {found} are there")

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""STL, ascii and binary: the corners of the triangles, each of them once."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_HEADER = 84
+
+
+def read(path: Path) -> NDArray[np.float64]:
+    """The different corners, (n, 3), in the order of their first appearance.
+
+    Raises
+    ------
+    InputError : not an STL file, or truncated
+    """
+    data = path.read_bytes()
+    count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else -1
+    if len(data) == _HEADER + count * _FACET.itemsize:
+        corners = np.frombuffer(data, _FACET, count, _HEADER)["corners"].reshape(-1, 3).astype(np.float64)
+    elif data.lstrip()[:5].lower() == b"solid":
+        corners = _ascii(path, data)
+    elif count > 0 and len(data) > _HEADER:
+        raise InputError(f"the scan {path} is cut off or no STL file: it promises {count} triangles and its length "
+                         f"does not fit")
+    else:
+        raise InputError(f"the scan {path} is not an STL file")
+    _, first = np.unique(corners, axis=0, return_index=True)
+    return corners[np.sort(first)]
+
+
+def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
+    lines = [line.split() for line in data.decode("latin-1").splitlines()]
+    if not any(words[:1] and words[0].lower() == "endsolid" for words in lines[-3:]):
+        raise InputError(f"the scan {path} is cut off: its STL text has no end")
+    corners = [words[1:4] for words in lines if words and words[0].lower() == "vertex"]
+    try:
+        return np.array(corners, dtype=np.float64).reshape(-1, 3)
+    except ValueError as error:
+        raise InputError(f"the scan {path} is damaged: a corner is not made of three numbers") from error
