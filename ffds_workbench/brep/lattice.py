@@ -38,7 +38,7 @@ class ParameterBox:
 
 
 @dataclass(frozen=True)
-class _Direction:
+class Direction:
     """One parameter direction while its knots are refined: the box side and the flat interior knots."""
 
     start: float
@@ -83,9 +83,10 @@ class _Direction:
         return factor.solve(values.reshape(len(values), -1)).reshape(values.shape)
 
     def unroll(self, points: Array) -> Array:
+        """Control points along axis 0 with the repeated ones of a closed direction appended."""
         return np.concatenate([points, points[:DEGREE]]) if self.closed else points
 
-    def refined(self, errors: Array, tolerance: float, most: int) -> _Direction:
+    def refined(self, errors: Array, tolerance: float, most: int) -> Direction:
         """Spans whose error (spans,) exceeds the tolerance are split; the error of a cubic falls with the fourth power."""
         breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
         pieces = np.ceil((errors / (0.7 * tolerance)) ** 0.25).astype(int)
@@ -99,11 +100,11 @@ class _Direction:
             pieces = np.where(np.isin(np.arange(len(pieces)), worst), pieces, 1)
         new = [a + (b - a) * np.arange(1, k) / k for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
         interior = np.sort(np.concatenate([self.interior, *new])) if new else self.interior
-        return _Direction(self.start, self.end, interior, self.closed)
+        return Direction(self.start, self.end, interior, self.closed)
 
 
-def _direction(start: float, end: float, seeds: Array, closed: bool) -> _Direction:
-    """Interior knots from the seeds: inside the side, not closer than 1e-6 of it, multiplicity at most 3."""
+def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction:
+    """A direction to start from, its interior knots the seeds: inside the side, not closer than 1e-6 of it, multiplicity at most 3."""
     length = end - start
     seeds = np.sort(np.asarray(seeds, dtype=float))
     seeds = seeds[(seeds > start + 1e-6 * length) & (seeds < end - 1e-6 * length)]
@@ -117,21 +118,21 @@ def _direction(start: float, end: float, seeds: Array, closed: bool) -> _Directi
     interior = np.array(kept)
     if closed and len(interior) < 7:
         interior = np.unique(np.concatenate([interior, start + length * np.arange(1, 8) / 8]))
-    return _Direction(start, end, interior, closed)
+    return Direction(start, end, interior, closed)
 
 
 def _some(x: Array) -> Array:
     return x if len(x) <= _MOST_SITES else x[np.linspace(0, len(x) - 1, _MOST_SITES).round().astype(int)]
 
 
-def _interpolate(f: GridFunction, u: _Direction, v: _Direction) -> SplineSurface:
+def _interpolate(f: GridFunction, u: Direction, v: Direction) -> SplineSurface:
     values = f(u.sites, v.sites)
     points = u.unroll(u.solve(values))
     points = v.unroll(v.solve(points.swapaxes(0, 1))).swapaxes(0, 1)
     return SplineSurface(u.knots, v.knots, points, periodic_u=u.closed, periodic_v=v.closed)
 
 
-def _errors(f: GridFunction, surface: SplineSurface, u: _Direction, v: _Direction) -> tuple[Array, Array]:
+def _errors(f: GridFunction, surface: SplineSurface, u: Direction, v: Direction) -> tuple[Array, Array]:
     """Largest interpolation error per span of u and per span of v, each taken at the other direction's sites."""
     cu, cv = u.checks, v.checks
     su, sv = _some(np.sort(u.sites)), _some(np.sort(v.sites))
@@ -157,8 +158,8 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
     -----
     Interpolation at Greville abscissae is well conditioned for cubics (de Boor, A Practical Guide to Splines, ch. XIII).
     """
-    u = _direction(box.u0, box.u1, seeds_u, box.closed_u)
-    v = _direction(box.v0, box.v1, seeds_v, box.closed_v)
+    u = direction(box.u0, box.u1, seeds_u, box.closed_u)
+    v = direction(box.v0, box.v1, seeds_v, box.closed_v)
     for _ in range(rounds):
         surface = _interpolate(f, u, v)
         error_u, error_v = _errors(f, surface, u, v)
