@@ -29,14 +29,20 @@ def find_library() -> Path | None:
 
 
 def activate() -> None:
-    """Put FreeCAD's folders on ``sys.path``, once; harmless inside FreeCAD.
+    """Import FreeCAD, its folders put on ``sys.path`` where they are not yet; harmless inside FreeCAD.
 
     Raises
     ------
     InputError : there is no FreeCAD on this machine.
     """
-    if "FreeCAD" in sys.modules or importlib.util.find_spec("FreeCAD") is not None:
+    if "FreeCAD" in sys.modules:
         return
+    if importlib.util.find_spec("FreeCAD") is None:
+        _put_on_path()
+    importlib.import_module("FreeCAD")  # Part crashes the interpreter where it is imported before FreeCAD
+
+
+def _put_on_path() -> None:
     library = find_library()
     if library is None:
         raise InputError("FreeCAD was not found: install it (./ffds setup) or name the folder of its FreeCAD.so "

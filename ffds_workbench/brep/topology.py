@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which face, edge and vertex of a shape touches which, by index, as FreeCAD numbers them; and where the edges run.
+
+Owns the adjacency and the sampling of edges; it moves nothing. Two shapes with equal topologies have the same
+sub-shapes in the same order, put together in the same way.
+"""
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import Part
+
+from ..registration.splines import Array
+
+Incidence = tuple[tuple[int, ...], ...]
+
+
+class _Numbering:
+    """Number of a sub-shape in a list of sub-shapes, whatever its orientation."""
+
+    def __init__(self, subshapes: Iterable[Part.Shape]) -> None:
+        self._buckets: dict[int, list[tuple[int, Part.Shape]]] = defaultdict(list)
+        for index, subshape in enumerate(subshapes):
+            self._buckets[subshape.hashCode()].append((index, subshape))
+
+    def __call__(self, subshape: Part.Shape) -> int:
+        for index, candidate in self._buckets[subshape.hashCode()]:
+            if candidate.isSame(subshape):
+                return index
+        return -1
+
+    def all(self, subshapes: Iterable[Part.Shape]) -> tuple[int, ...]:
+        return tuple(self(subshape) for subshape in subshapes)
+
+
+def _invert(incidence: Incidence, count: int) -> Incidence:
+    inverse: list[list[int]] = [[] for _ in range(count)]
+    for owner, members in enumerate(incidence):
+        for member in members:
+            inverse[member].append(owner)
+    return tuple(map(tuple, inverse))
+
+
+@dataclass(frozen=True)
+class Topology:
+    """A shape's adjacency by index; equal for shapes with the same sub-shapes in the same order.
+
+    Attributes
+    ----------
+    counts : number of solids, shells, faces, wires, edges and vertices, as FreeCAD counts them
+    solid_faces, shell_faces : faces of each solid and of each shell
+    face_wires : for each face, for each of its wires, the edges in stored order; a seam stands there twice
+    face_edges : edges of each face, each once
+    edge_vertices : vertices of each edge, each once
+    reversed_faces : whether a face is used REVERSED
+    degenerate : whether an edge is a point: the pole of a sphere, the apex of a cone
+    """
+
+    counts: dict[str, int]
+    solid_faces: Incidence
+    shell_faces: Incidence
+    face_wires: tuple[Incidence, ...]
+    face_edges: Incidence
+    edge_vertices: Incidence
+    reversed_faces: tuple[bool, ...]
+    degenerate: tuple[bool, ...]
+
+    @cached_property
+    def edge_faces(self) -> Incidence:
+        """Faces at each edge, each once."""
+        return _invert(self.face_edges, self.counts["edges"])
+
+    @cached_property
+    def vertex_edges(self) -> Incidence:
+        """Edges at each vertex, each once."""
+        return _invert(self.edge_vertices, self.counts["vertices"])
+
+    @cached_property
+    def face_vertices(self) -> Incidence:
+        """Vertices of each face, each once."""
+        return tuple(tuple(sorted({vertex for edge in edges for vertex in self.edge_vertices[edge]}))
+                     for edges in self.face_edges)
+
+    @cached_property
+    def vertex_faces(self) -> Incidence:
+        """Faces at each vertex, each once."""
+        return _invert(self.face_vertices, self.counts["vertices"])
+
+    @cached_property
+    def seams(self) -> frozenset[tuple[int, int]]:
+        """(face, edge) where the face meets itself along the edge."""
+        uses = Counter((face, edge) for face, wires in enumerate(self.face_wires) for wire in wires for edge in wire)
+        return frozenset(use for use, times in uses.items() if times > 1)
+
+    def faces_around(self, faces: Iterable[int]) -> set[int]:
+        """The faces that share a vertex or an edge with any of ``faces``, and these themselves."""
+        faces = set(faces)
+        vertices = {vertex for face in faces for vertex in self.face_vertices[face]}
+        return faces | {other for vertex in vertices for other in self.vertex_faces[vertex]}
+
+
+def read(shape: Part.Shape) -> Topology:
+    """Adjacency of a shape."""
+    faces, edges, vertices = shape.Faces, shape.Edges, shape.Vertexes
+    face_number, edge_number, vertex_number = _Numbering(faces), _Numbering(edges), _Numbering(vertices)
+    counts = {"solids": len(shape.Solids), "shells": len(shape.Shells), "faces": len(faces),
+              "wires": len(shape.Wires), "edges": len(edges), "vertices": len(vertices)}
+    return Topology(
+        counts=counts,
+        solid_faces=tuple(face_number.all(solid.Faces) for solid in shape.Solids),
+        shell_faces=tuple(face_number.all(shell.Faces) for shell in shape.Shells),
+        face_wires=tuple(tuple(edge_number.all(wire.childShapes(False, True)) for wire in face.Wires) for face in faces),
+        face_edges=tuple(edge_number.all(face.Edges) for face in faces),
+        edge_vertices=tuple(vertex_number.all(edge.Vertexes) for edge in edges),
+        reversed_faces=tuple(face.Orientation == "Reversed" for face in faces),
+        degenerate=tuple(bool(edge.Degenerated) for edge in edges))
+
+
+@dataclass(frozen=True)
+class EdgeTrace:
+    """An edge as one of its faces sees it.
+
+    Attributes
+    ----------
+    points : (n, 3) on the edge's own curve in mm; the vertex, n times, where the edge is degenerate
+    uv : (n, 2) the face's parameters there, along the edge's pcurve
+    """
+
+    points: Array
+    uv: Array
+
+
+def edge_points(edge: Part.Edge, fractions: Array) -> Array:
+    """Points of an edge at fractions 0…1 of its parameter range: (n,) to (n, 3) in mm."""
+    if edge.Degenerated:
+        return np.repeat([tuple(edge.Vertexes[0].Point)], len(fractions), axis=0)
+    first, last = edge.ParameterRange
+    value = edge.Curve.value
+    return np.array([tuple(value(t)) for t in (first + (last - first) * fractions).tolist()])
+
+
+def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[EdgeTrace]:
+    """The traces of an edge on a face at fractions 0…1 of its range: one, or two where it is a seam."""
+    points = edge_points(edge, fractions)
+    traces: list[EdgeTrace] = []
+    for side in (edge, edge.reversed()):
+        pcurve = face.curveOnSurface(side)
+        if pcurve is None:
+            continue
+        curve, first, last = pcurve[:3]
+        values = [curve.value(t) for t in (first + (last - first) * fractions).tolist()]
+        uv = np.array([(value.x, value.y) for value in values])
+        if not traces or np.abs(uv - traces[0].uv).max() > 1e-9:
+            traces.append(EdgeTrace(points, uv))
+    return traces
