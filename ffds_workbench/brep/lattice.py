@@ -104,7 +104,7 @@ class Direction:
 
 
 def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction:
-    """A direction to start from, its interior knots the seeds: inside the side, not closer than 1e-6 of it, multiplicity at most 3."""
+    """A direction to start from, interior knots at the seeds: inside, not closer than 1e-6 of it, multiplicity at most 3."""
     length = end - start
     seeds = np.sort(np.asarray(seeds, dtype=float))
     seeds = seeds[(seeds > start + 1e-6 * length) & (seeds < end - 1e-6 * length)]
