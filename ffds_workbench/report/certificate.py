@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The topology certificate: what of a nominal shape's topology its as-built version keeps, and how tightly it closes.
+
+Judges two shapes and changes neither. OCCT evaluates every curve and surface here, so that the verdict does not rest
+on the spline code that made the result.
+"""
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import Part
+
+from ..brep import topology
+from ..brep.topology import Topology
+from ..errors import RefusedError
+from ..registration.splines import Array
+
+GAP_LIMIT = 1e-4
+"""Largest edge gap beyond the nominal's own in mm."""
+TOLERANCE_LIMIT = 1e-3
+"""Largest tolerance in mm, where the nominal's own is not larger."""
+_UNIFORM_SAMPLES = 65
+_SAMPLES_PER_SPAN = 2
+
+_CHECKER = """
+import json, sys
+sys.path[:] = json.loads(sys.argv[2])
+import FreeCAD, Part
+shape = Part.Shape()
+shape.importBrep(sys.argv[1])
+try:
+    shape.check(True)
+    lines = []
+except ValueError as errors:
+    lines = str(errors).splitlines()
+print("errors:", max(len([line for line in lines if line.startswith("Error in")]), int(bool(lines))))
+"""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """How sound one shape is.
+
+    Attributes
+    ----------
+    topology : adjacency by index
+    valid : OCCT's verdict
+    closed_shells : for each shell, whether it is closed
+    max_edge_gap : largest distance in mm between an edge's curve and one of its faces at the same parameter, and
+        between an edge's end and its vertex
+    max_tolerance : largest tolerance of a face, edge or vertex in mm
+    boolean_check : errors that the check for Boolean operations reports; None where it did not run or did not finish
+    """
+
+    topology: Topology
+    valid: bool
+    closed_shells: tuple[bool, ...]
+    max_edge_gap: float
+    max_tolerance: float
+    boolean_check: int | None
+
+    @property
+    def closed(self) -> bool:
+        return bool(self.closed_shells) and all(self.closed_shells)
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """The condition of a shape before and after its deformation."""
+
+    before: Condition
+    after: Condition
+
+    @property
+    def order_kept(self) -> bool:
+        """Every face, edge and vertex touches the same others as before, by index."""
+        return self.before.topology == self.after.topology
+
+    @property
+    def excess_gap(self) -> float:
+        """Largest edge gap beyond the nominal's own in mm."""
+        return max(0.0, self.after.max_edge_gap - self.before.max_edge_gap)
+
+    def broken(self) -> list[str]:
+        """One sentence for everything that forbids to hand the shape out; empty if nothing does."""
+        before, after = self.before.topology.counts, self.after.topology.counts
+        sentences = [f"The number of {kind} changed from {before[kind]} to {after[kind]}."
+                     for kind in before if before[kind] != after[kind]]
+        if not sentences and not self.order_kept:
+            sentences.append("The order of the faces, edges or vertices changed.")
+        if not self.after.valid:
+            sentences.append("The shape is not valid.")
+        if not sentences:
+            opened = [i + 1 for i, (was, is_now) in enumerate(zip(self.before.closed_shells, self.after.closed_shells,
+                                                                  strict=True)) if was and not is_now]
+            sentences += [f"Shell {number} is no longer closed." for number in opened]
+        return sentences
+
+    def problems(self) -> list[str]:
+        """One sentence for everything that is worse than before; empty for a clean result."""
+        sentences = self.broken()
+        if self.excess_gap > GAP_LIMIT:
+            sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
+                             f"{self.after.max_edge_gap:.2g} mm.")
+        if self.after.max_tolerance > max(self.before.max_tolerance, TOLERANCE_LIMIT):
+            sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
+                             f"{self.after.max_tolerance:.2g} mm.")
+        errors = self.before.boolean_check, self.after.boolean_check
+        if errors[1] and errors[1] > (errors[0] or 0):
+            was = "an unknown number of" if errors[0] is None else errors[0]
+            sentences.append(f"The check for Boolean operations reports {errors[1]} errors, {was} before.")
+        return sentences
+
+    def enforce(self) -> None:
+        """Refuse a shape that lost its topology.
+
+        Raises
+        ------
+        RefusedError
+            The result is not valid, lost a sub-shape, changed its order or opened.
+        """
+        broken = self.broken()
+        if broken:
+            raise RefusedError("The deformed model lost its topology and was not written: " + " ".join(broken))
+
+    def as_dict(self) -> dict[str, object]:
+        """The report's ``topology`` block; lengths in mm."""
+        before, after = self.before, self.after
+        return {"before": before.topology.counts, "after": after.topology.counts, "order_kept": self.order_kept,
+                "valid": after.valid, "closed": after.closed,
+                "max_edge_gap": {"before": before.max_edge_gap, "after": after.max_edge_gap},
+                "max_tolerance": {"before": before.max_tolerance, "after": after.max_tolerance},
+                "boolean_check": {"before": before.boolean_check, "after": after.boolean_check}}
+
+
+def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None = 60.0) -> Certificate:
+    """Compare a deformed shape with the nominal one it came from.
+
+    Parameters
+    ----------
+    nominal, result : before and after
+    boolean_limit : seconds that the check for Boolean operations may take, for both shapes at the same time;
+        None leaves it out
+    """
+    checks = (None, None) if boolean_limit is None else boolean_checks((nominal, result), boolean_limit)
+    return Certificate(_condition(nominal, checks[0]), _condition(result, checks[1]))
+
+
+def _condition(shape: Part.Shape, boolean_check: int | None) -> Condition:
+    return Condition(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells),
+                     max_edge_gap(shape), max_tolerance(shape), boolean_check)
+
+
+def max_tolerance(shape: Part.Shape) -> float:
+    """Largest tolerance of a face, edge or vertex in mm."""
+    return max(part.Tolerance for parts in (shape.Faces, shape.Edges, shape.Vertexes) for part in parts)
+
+
+def max_edge_gap(shape: Part.Shape) -> float:
+    """Largest distance in mm between an edge and its faces, through the pcurves, and between its ends and vertices."""
+    ends = [distance for edge in shape.Edges if not edge.Degenerated for distance in _end_gaps(edge)]
+    sides = [distance for face in shape.Faces for edge in face.Edges if not edge.Degenerated
+             for distance in _side_gaps(face, edge)]
+    return float(max(ends + sides, default=0.0))
+
+
+def _end_gaps(edge: Part.Edge) -> list[float]:
+    """Distance of every vertex of the edge from the nearer end of its curve."""
+    ends = [edge.Curve.value(t) for t in edge.ParameterRange]
+    return [min(end.distanceToPoint(vertex.Point) for end in ends) for vertex in edge.Vertexes]
+
+
+def _side_gaps(face: Part.Face, edge: Part.Edge) -> Iterator[float]:
+    """Largest distance of the edge's curve from the face along each of its pcurves there."""
+    for trace in topology.edge_traces(face, edge, _fractions(edge)):
+        value = face.Surface.value
+        on_face = np.array([tuple(value(u, v)) for u, v in trace.uv.tolist()])
+        yield float(np.linalg.norm(on_face - trace.points, axis=1).max())
+
+
+def _fractions(edge: Part.Edge) -> Array:
+    """Where along an edge to look, 0…1: evenly, and inside every span of its curve."""
+    uniform = np.linspace(0.0, 1.0, _UNIFORM_SAMPLES)
+    if not hasattr(edge.Curve, "getKnots"):
+        return uniform
+    first, last = edge.ParameterRange
+    knots = np.unique((np.array(edge.Curve.getKnots()) - first) / (last - first))
+    knots = np.concatenate([[0.0], knots[(knots > 0.0) & (knots < 1.0)], [1.0]])
+    inner = knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_SAMPLES_PER_SPAN) + 0.5) / _SAMPLES_PER_SPAN
+    return np.unique(np.concatenate([uniform, knots, inner.ravel()]))
+
+
+def boolean_checks(shapes: tuple[Part.Shape, ...], limit: float) -> tuple[int | None, ...]:
+    """Errors that OCCT's check for Boolean operations reports for each shape; None where it did not finish in time.
+
+    The check can take hours and cannot be interrupted, so each shape is checked in a process of its own.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        processes = []
+        for number, shape in enumerate(shapes):
+            path = Path(folder) / f"{number}.brep"
+            shape.exportBrep(str(path))
+            processes.append(subprocess.Popen([_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path)],
+                                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
+        try:
+            deadline = time.monotonic() + limit
+            return tuple(_errors(process, deadline) for process in processes)
+        finally:
+            for process in processes:
+                process.kill()
+                process.wait()
+
+
+def _interpreter() -> str:
+    """A Python to run a script with: inside FreeCAD ``sys.executable`` may be FreeCAD itself."""
+    if "python" in Path(sys.executable or "").name:
+        return sys.executable
+    return str(Path(sys.exec_prefix) / "bin" / "python3")
+
+
+def _errors(process: subprocess.Popen[str], deadline: float) -> int | None:
+    try:
+        output, _ = process.communicate(timeout=max(0.0, deadline - time.monotonic()))
+    except subprocess.TimeoutExpired:
+        return None
+    count = output.rpartition("errors:")[2].strip()
+    return int(count) if process.returncode == 0 and count else None
