@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Curves of edges on deformed faces: fitted to what the faces say, and how far they are from each face."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..registration.splines import DEGREE, Array, SplineSurface
+from .curve_fit import crossings, fit_curve
+from .curves import Curve, Line, Spline
+from .pcurves import Pcurve
+
+_GAP_SAMPLES = 257
+_GAP_SAMPLES_PER_SPAN = 4
+
+
+@dataclass(frozen=True)
+class Trace:
+    """An edge as one face sees it: the face's new surface along the pcurve, in world coordinates."""
+
+    surface: SplineSurface
+    pcurve: Pcurve
+
+    def at(self, fraction: Array) -> Array:
+        """Points at fractions of the edge's range, (n,) in [0, 1] to (n, 3)."""
+        return self.surface(self.uv(fraction))
+
+    def uv(self, fraction: Array) -> Array:
+        """Parameters on the face at fractions of the edge's range: (n, 2)."""
+        pcurve = self.pcurve
+        return pcurve.curve(pcurve.first + fraction * (pcurve.last - pcurve.first))
+
+    def breaks(self) -> Array:
+        """Fractions at which the trace is not C2, repeated for the multiplicity a cubic needs there."""
+        pcurve, surface = self.pcurve, self.surface
+        own = (pcurve.curve.breaks() - pcurve.first) / (pcurve.last - pcurve.first)
+        found = [_repeated(own[(own > 0.0) & (own < 1.0)])]
+        for axis, knots in ((0, surface.knots_u), (1, surface.knots_v)):
+            levels = _repeated(knots[DEGREE + 1 : -DEGREE - 1])
+            for level in np.unique(levels):
+                passed = crossings(lambda x, axis=axis: self.uv(x)[:, axis], 0.0, 1.0, np.array([level]))
+                found.append(np.repeat(passed, np.count_nonzero(levels == level)))
+        return np.concatenate(found)
+
+    def spans(self) -> int:
+        """Number of lattice spans the trace can pass."""
+        return len(self.surface.knots_u) + len(self.surface.knots_v)
+
+
+def _repeated(knots: Array) -> Array:
+    """Knots of multiplicity two and more, with their repetitions."""
+    distinct, first, count = np.unique(np.round(knots, 12), return_index=True, return_counts=True)
+    several = count >= 2
+    return np.repeat(knots[first[several]], count[several])
+
+
+def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool, tolerance: float) -> Spline:
+    """Cubic through the mean of the traces over [first, last]; ends equal where the edge is ``closed``."""
+    def mean(t: Array) -> Array:
+        fraction = np.clip((t - first) / (last - first), 0.0, 1.0)
+        return sum(trace.at(fraction) for trace in traces) / len(traces)
+
+    breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])
+    curve = fit_curve(mean, first, last, breaks, tolerance)
+    if closed:
+        curve.poles[0] = curve.poles[-1] = 0.5 * (curve.poles[0] + curve.poles[-1])
+    return curve
+
+
+def largest_gap(curve: Curve, matrix: Array, first: float, last: float, traces: Sequence[Trace]) -> float:
+    """Largest distance in mm between an edge's curve and its traces at the same parameter, densely sampled.
+
+    Parameters
+    ----------
+    matrix : (4, 4), the curve's own coordinates to the world's
+    """
+    if not traces:
+        return 0.0
+    spans = max(trace.spans() for trace in traces)
+    if not isinstance(curve, Line):
+        spans += len(curve.breaks()) + (len(curve.knots) if isinstance(curve, Spline) else 0)
+    fraction = np.linspace(0.0, 1.0, _GAP_SAMPLES + _GAP_SAMPLES_PER_SPAN * spans)
+    points = curve(first + fraction * (last - first)) @ matrix[:3, :3].T + matrix[:3, 3]
+    return max(float(np.linalg.norm(trace.at(fraction) - points, axis=1).max()) for trace in traces)

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writes a deformed workpiece back as a shape with the same topology.
+
+Faces that move get a cubic B-spline surface over the same (u, v); their pcurves stay, so edges, holes and trims follow.
+Edges and vertices take the mean of what their faces say, and tolerances cover the rest. Everything else keeps its record.
+"""
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import Part
+
+from ..errors import RefusedError
+from ..registration.splines import Array, SplineSurface
+from .curves import read_curve
+from .displacement import FaceDisplacement
+from .edges import Trace, edge_curve, largest_gap
+from .folding import folded
+from .instances import Instances, Locations, product, walk
+from .lattice import approximate
+from .pcurves import PcurveReader, UsedEdge
+from .rewriting import NewEdge, NewFace, NewVertex, Rewriter
+from .text import BrepText, Curve3d, EdgeCurves, VertexPoint, dump, parse
+from .workpiece import Workpiece, WorkpieceFace
+
+SURFACE_TOLERANCE = 4e-6
+"""Largest distance in mm of a new surface from the nominal one plus its displacement, where nothing else is asked."""
+
+_STILL = 1e-5
+"""A displacement below this (mm) counts as none, where a moved face meets one that stays."""
+
+
+def rebuild(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement],
+            tolerance: float = SURFACE_TOLERANCE) -> Part.Shape:
+    """The workpiece with some of its faces displaced and its topology unchanged.
+
+    Parameters
+    ----------
+    displacements : by face index (0-based). Faces that are not named, and the edges between them, stay exactly as they
+        are; along an edge between a named and an unnamed face the displacement must be zero
+    tolerance : largest distance in mm of a face's new surface from the nominal surface plus its displacement. Edges gape
+        by about as much; looser is coarser and faster
+
+    Raises
+    ------
+    RefusedError
+        a face would fold over or tear off a face that stays, or the result is not valid although the nominal is
+    """
+    if not displacements:
+        return workpiece.shape.copy()
+    brep = parse(workpiece.shape.exportBrepToString())
+    locations = Locations(brep.locations)
+    instances = walk(brep, locations)
+    reader = PcurveReader(brep, locations, instances)
+    faces = {index: NewFace(displaced_surface(workpiece.faces[index], displacements[index], tolerance),
+                            tuple(reader.face_edges(index)))
+             for index in sorted(displacements)}
+    _refuse_folds(workpiece, faces)
+    geometry = _Geometry(brep, locations, instances, faces, tolerance)
+    geometry.refuse_tears(displacements, workpiece)
+    edges = {index: geometry.edge(index) for index in geometry.edges}
+    vertices = geometry.vertices(edges)
+    shape = Part.Shape()
+    shape.importBrepFromString(dump(Rewriter(brep, locations, instances, faces, edges, vertices).text()))
+    if workpiece.shape.isValid() and not shape.isValid():
+        raise RefusedError("The rebuilt shape is not valid: the displacement is too large or too uneven for this part.")
+    return shape
+
+
+def displaced_surface(face: WorkpieceFace, displacement: FaceDisplacement, tolerance: float) -> SplineSurface:
+    """A face's new surface: a cubic spline within ``tolerance`` of S(u, v) + d(u, v), in world coordinates."""
+    def moved(u: Array, v: Array) -> Array:
+        points = face.on_grid(u, v)
+        uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
+        return points + displacement.evaluate(uv, points.reshape(-1, 3)).reshape(points.shape)
+
+    own_u, own_v = face.own_knots
+    seeds_u = _joined(own_u, displacement.knots_u, face.box.u1 - face.box.u0)
+    seeds_v = _joined(own_v, displacement.knots_v, face.box.v1 - face.box.v0)
+    return approximate(moved, face.box, seeds_u, seeds_v, tolerance)
+
+
+def _joined(own: Array, more: Array, length: float) -> Array:
+    """Own knots, and those of ``more`` that lie apart from them: a knot met twice would lose a derivative."""
+    more = np.unique(np.asarray(more, dtype=float))
+    if len(own) and len(more):
+        more = more[np.abs(more[:, None] - own).min(axis=1) > 1e-6 * length]
+    return np.concatenate([own, more])
+
+
+def _refuse_folds(workpiece: Workpiece, faces: Mapping[int, NewFace]) -> None:
+    for index, new in faces.items():
+        face = workpiece.faces[index]
+        if folded(face.on_grid, new.surface, face.trims):
+            raise RefusedError(f"{face.name} would fold over: the displacement is too large for its size.")
+
+
+class _Geometry:
+    """New curves, points and tolerances of the edges and vertices around the displaced faces."""
+
+    def __init__(self, brep: BrepText, locations: Locations, instances: Instances, faces: Mapping[int, NewFace],
+                 tolerance: float) -> None:
+        self._brep, self._locations, self._instances, self._faces = brep, locations, instances, faces
+        self._tolerance = 0.5 * tolerance
+        self._uses: dict[int, list[tuple[int, UsedEdge]]] = {}
+        for face, new in faces.items():
+            for used in new.edges:
+                self._uses.setdefault(used.edge, []).append((face, used))
+        self.edges = sorted(self._uses)
+
+    def _curves(self, edge: int) -> EdgeCurves:
+        return self._brep.shapes[self._instances.edges[edge].shape].geometry
+
+    def _traces(self, edge: int) -> list[Trace]:
+        return [Trace(self._faces[face].surface, pcurve) for face, used in self._uses[edge] for pcurve in used.pcurves]
+
+    def _stays(self, edge: int) -> bool:
+        """Whether a face that is not displaced, or no face at all, uses the edge."""
+        users = self._instances.edge_faces[edge]
+        return not users or any(face not in self._faces for face in users)
+
+    def refuse_tears(self, displacements: Mapping[int, FaceDisplacement], workpiece: Workpiece) -> None:
+        """Refuse a displacement that is not zero where its face meets one that stays."""
+        fraction = np.linspace(0.0, 1.0, 65)
+        for edge in filter(self._stays, self.edges):
+            for face, used in self._uses[edge]:
+                uv = Trace(self._faces[face].surface, used.pcurves[0]).uv(fraction)
+                moved = displacements[face].evaluate(uv, workpiece.faces[face].at(uv))
+                if np.linalg.norm(moved, axis=1).max() > _STILL:
+                    raise RefusedError(f"Face{face + 1} would tear off at Edge{edge + 1}: its neighbour there does not move.")
+
+    def edge(self, edge: int) -> NewEdge:
+        """New curve and tolerance of an edge of a displaced face."""
+        old, traces = self._curves(edge), self._traces(edge)
+        if old.degenerated:
+            return NewEdge(None, old.tolerance)
+        item = next((item for item in old.representations if isinstance(item, Curve3d)), None)
+        if self._stays(edge) and item is not None:
+            matrix = self._locations.matrix(product(self._instances.edges[edge].place, self._locations.chain(item.location)))
+            curve = read_curve(self._brep.curves_3d[item.curve - 1], 3)
+            gap = largest_gap(curve, matrix, item.first, item.last, traces)
+            return NewEdge(None, _covering(old.tolerance, gap))
+        if not old.same_parameter:
+            raise RefusedError(f"Edge{edge + 1} and its faces run at different parameters: repair the shape first.")
+        span = item or self._uses[edge][0][1].pcurves[0]
+        closed = len({vertex for vertex, _ in self._instances.edge_ends[edge]}) == 1
+        new = edge_curve(traces, span.first, span.last, closed, self._tolerance)
+        gap = largest_gap(new, np.eye(4), span.first, span.last, traces)
+        return NewEdge(new, _covering(old.tolerance, gap))
+
+    def vertices(self, edges: Mapping[int, NewEdge]) -> dict[int, NewVertex]:
+        """New points and tolerances of all vertices of displaced faces."""
+        ends: dict[int, list[Array]] = {}
+        least: dict[int, float] = {}
+        for edge, new in edges.items():
+            traces = self._traces(edge)
+            for vertex, orientation in self._instances.edge_ends[edge]:
+                least[vertex] = max(least.get(vertex, 0.0), new.tolerance)
+                if orientation in "+-":
+                    at = np.array([0.0 if orientation == "+" else 1.0])
+                    points = [trace.at(at) for trace in traces]
+                    if new.curve is not None:
+                        points.append(new.curve.poles[[0 if orientation == "+" else -1]])
+                    ends.setdefault(vertex, []).extend(points)
+        staying = {vertex for edge, ends_of in enumerate(self._instances.edge_ends) if edge not in edges or self._stays(edge)
+                   for vertex, _ in ends_of}
+        return {vertex: self._vertex(vertex, np.concatenate(ends[vertex]), least[vertex], vertex in staying)
+                for vertex in ends}
+
+    def _vertex(self, vertex: int, ends: Array, least: float, stays: bool) -> NewVertex:
+        instance = self._instances.vertices[vertex]
+        old = self._brep.shapes[instance.shape].geometry
+        assert isinstance(old, VertexPoint)
+        if stays:
+            matrix = self._locations.matrix(instance.place)
+            point = matrix[:3, :3] @ np.array(old.point) + matrix[:3, 3]
+        else:
+            point = ends.mean(axis=0)
+        distance = float(np.linalg.norm(ends - point, axis=1).max())
+        tolerance = max(old.tolerance, 1.05 * distance + 2e-8, least)
+        return NewVertex(None if stays else point, tolerance)
+
+
+def _covering(tolerance: float, gap: float) -> float:
+    """An edge's tolerance: never lowered, and above the sampled gap by what lies between samples."""
+    return max(tolerance, gap + min(0.3 * gap, 3e-5) + 2e-8)
