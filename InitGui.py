@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FreeCAD's GUI runs this at every start: it makes the workbench known and loads nothing else."""
+import FreeCADGui as Gui
+
+
+class FFDSWorkbench(Gui.Workbench):
+    """The workbench. Names of this file cannot be seen from the methods, hence the imports inside them."""
+
+    def __init__(self):
+        from ffds_workbench import RESOURCES
+
+        self.__class__.Icon = str(RESOURCES / "icons" / "ffds.svg")
+        self.__class__.MenuText = "FFDS"
+        self.__class__.ToolTip = "Deform a CAD model to a scan; its topology stays"
+
+    def Initialize(self):  # noqa: N802
+        """Called once, when the workbench is first opened."""
+        import FreeCAD
+
+        from ffds_workbench import __version__
+
+        FreeCAD.Console.PrintLog(f"FFDS {__version__}: use 'from ffds_workbench import api' in the Python console\n")
+
+    def GetClassName(self):  # noqa: N802
+        """The kind of workbench FreeCAD makes of this class."""
+        return "Gui::PythonWorkbench"
+
+
+Gui.addWorkbench(FFDSWorkbench())
