@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The virtual sensor: scans of any shape, deformed or not, with their ground truth. Everything is seeded."""
+from .settings import SensorSettings, View
+from .simulate import SimulatedScan, simulate
+from .target import Target
+from .truth import Truth, make_truth
+
+__all__ = ["SensorSettings", "SimulatedScan", "Target", "Truth", "View", "make_truth", "simulate"]
