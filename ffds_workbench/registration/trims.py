@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which parameters of a face carry material: its trims filled by the even-odd rule."""
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .face import FaceGeometry
+from .splines import Array
+
+_ON_BOUNDARY = 1e-7
+
+
+def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
+    """Whether the nodes of the grid u × v lie on the trimmed face; (len(u), len(v)).
+
+    Parameters
+    ----------
+    u, v : increasing parameters in the face's range; a node on the very side of the range counts as just inside it
+
+    Notes
+    -----
+    A scan line per v: a node is inside if an odd number of trim crossings lies at smaller u. Trims on a closed direction
+    may leave the range, so they are also taken one period to either side.
+    """
+    u0, u1, v0, v1 = face.surface.range
+    u, v = _inwards(u, u0, u1), _inwards(v, v0, v1)
+    start, end = _segments(face.trims)
+    if face.surface.periodic_v:
+        shifts = np.array([[0.0, k * (v1 - v0)] for k in (-1, 0, 1)])
+        start, end = _repeated(start, shifts), _repeated(end, shifts)
+    first = np.searchsorted(v, np.minimum(start[:, 1], end[:, 1]))
+    last = np.searchsorted(v, np.maximum(start[:, 1], end[:, 1]))
+    count = last - first
+    segment = np.repeat(np.arange(len(start)), count)
+    line = np.arange(len(segment)) - np.repeat(np.cumsum(count) - count - first, count)
+    a, b = start[segment], end[segment]
+    crossing = a[:, 0] + (v[line] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+    if face.surface.periodic_u:
+        crossing = np.concatenate([crossing + k * (u1 - u0) for k in (-1, 0, 1)])
+        line = np.tile(line, 3)
+    crossings = np.zeros((len(u) + 1, len(v)), dtype=np.intp)
+    np.add.at(crossings, (np.searchsorted(u, crossing), line), 1)
+    return np.asarray(np.cumsum(crossings[:-1], axis=0) % 2 == 1)
+
+
+def boundary_points(face: FaceGeometry, spacing: float) -> Array:
+    """Points in space along the trims, no farther apart than about ``spacing`` mm; (n, 3).
+
+    Seams of a closed direction and poles are no boundary and are left out.
+    """
+    start, end = _segments(face.trims)
+    u0, u1, v0, v1 = face.surface.range
+    real = np.ones(len(start), dtype=bool)
+    for axis, periodic, low, high in ((0, face.surface.periodic_u, u0, u1), (1, face.surface.periodic_v, v0, v1)):
+        if periodic:
+            near = _ON_BOUNDARY * (high - low)
+            a, b = start[:, axis], end[:, axis]
+            real &= ~((np.abs(a - b) < near) & ((np.abs(a - low) < near) | (np.abs(a - high) < near)))
+    start, end = start[real], end[real]
+    if not len(start):
+        return np.zeros((0, 3))
+    middle = face.surface(0.5 * (start + end))
+    a, b = face.surface(start), face.surface(end)
+    length = np.linalg.norm(middle - a, axis=1) + np.linalg.norm(b - middle, axis=1)
+    pieces = np.where(length > _ON_BOUNDARY, np.ceil(length / spacing), 0).astype(np.intp)
+    segment = np.repeat(np.arange(len(start)), pieces)
+    step = np.arange(len(segment)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    share = ((step + 0.5) / pieces[segment])[:, None]
+    return face.surface((1 - share) * start[segment] + share * end[segment])
+
+
+def _inwards(x: Array, low: float, high: float) -> Array:
+    margin = _ON_BOUNDARY * (high - low)
+    return np.clip(x, low + margin, high - margin)
+
+
+def _segments(trims: tuple[Array, ...]) -> tuple[Array, Array]:
+    """Start and end of every piece of the closed polylines, (k, 2) each."""
+    return np.concatenate(trims), np.concatenate([np.roll(trim, -1, axis=0) for trim in trims])
+
+
+def _repeated(points: Array, shifts: Array) -> Array:
+    return (points[None] + shifts[:, None]).reshape(-1, 2)
