@@ -80,18 +80,18 @@ def interpolate(points: Array, values: Array, tolerances: Array, support: float,
     support : support of the basis functions in mm
     most : largest number of centres; the tolerances are given up for it
     """
-    kernel = wendland(cdist(points, points) / support)
     chosen = _spread(points, np.ones(len(points), dtype=bool), np.empty(0, dtype=np.intp), min(_FIRST_CENTRES, most))
+    kernel = wendland(cdist(points, points[chosen]) / support)
     while True:
-        matrix = kernel[np.ix_(chosen, chosen)]
+        matrix = kernel[chosen]
         matrix[np.diag_indices(len(chosen))] += _RIDGE
         coefficients = cho_solve(cho_factor(matrix, lower=True), values[chosen])
-        missed = np.linalg.norm(kernel[:, chosen] @ coefficients - values, axis=1) > tolerances
-        room = min(len(chosen), most - len(chosen))
-        more = _spread(points, missed, chosen, room)
+        missed = np.linalg.norm(kernel @ coefficients - values, axis=1) > tolerances
+        more = _spread(points, missed, chosen, min(len(chosen), most - len(chosen)))
         if len(more) == 0:
             return RadialField(points[chosen], coefficients, support)
         chosen = np.concatenate([chosen, more])
+        kernel = np.concatenate([kernel, wendland(cdist(points, points[more]) / support)], axis=1)
 
 
 def _spread(points: Array, eligible: NDArray[np.bool_], chosen: NDArray[np.intp], count: int) -> NDArray[np.intp]:

@@ -15,6 +15,8 @@ from ..registration.face import FaceGeometry
 from ..registration.splines import Array, SplineSurface
 from .lattice import ParameterBox, approximate
 from .parameters import own_knots, parameter_box, trims
+from .topology import Topology
+from .topology import read as read_topology
 
 SURFACE_TOLERANCE = 4e-6
 """Largest distance in mm of a face's control lattice from the face's own surface."""
@@ -79,6 +81,15 @@ class Workpiece:
     def __init__(self, shape: Part.Shape) -> None:
         self.shape = shape
         self.faces = tuple(WorkpieceFace(i, face) for i, face in enumerate(shape.Faces))
+
+    @cached_property
+    def edges(self) -> tuple[Part.Edge, ...]:
+        return tuple(self.shape.Edges)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """Which face, edge and vertex touches which, by index."""
+        return read_topology(self.shape)
 
     def geometry(self, index: int) -> FaceGeometry:
         """Face ``index`` (0-based) as registration sees it."""
