@@ -46,6 +46,12 @@ class Camera:
         rays = self.position - points
         return rays / np.linalg.norm(rays, axis=1)[:, None]
 
+    def magnification(self, points: Array, normals: Array) -> Array:
+        """Area in the picture per area of the surface at points (n, 3) with unit normals (n, 3); (n,)."""
+        rays = self.position - points
+        depth = rays @ self.axes[2]
+        return self.standoff**2 * np.einsum("ij,ij->i", normals, rays) / np.maximum(depth, 1e-9) ** 3
+
     def on_plane(self, picture: Array, distance: float) -> Array:
         """Points (n, 3) seen at the picture coordinates (n, 2) on the plane square to the axis at that depth."""
         local = np.column_stack([picture * (distance / self.standoff), np.full(len(picture), -distance)])
@@ -95,9 +101,13 @@ def pixel_size(diagonal: float) -> float:
     return max(_PIXEL, diagonal / _MOST_PIXELS)
 
 
-def depth_picture(camera: Camera, points: Array, pixel: float) -> DepthPicture:
-    """Depth picture of points that lie closer together than half a pixel."""
+def depth_picture(camera: Camera, points: Array, pixel: float, field: tuple[float, float]) -> DepthPicture:
+    """Depth picture, inside the field of view, of points that lie closer together than half a pixel."""
     picture, depth = camera.project(points)
+    within = (depth > 0) & (np.abs(picture) <= 0.5 * np.array(field) + 2 * pixel).all(axis=1)
+    if not within.any():
+        return DepthPicture(np.full((1, 1), np.inf), np.zeros(2), pixel)
+    picture, depth = picture[within], depth[within]
     corner = picture.min(axis=0) - 2 * pixel
     shape = np.ceil((picture.max(axis=0) + 2 * pixel - corner) / pixel).astype(int) + 1
     cell = np.floor((picture - corner) / pixel).astype(np.intp)
@@ -116,4 +126,4 @@ def sees(camera: Camera, depths: DepthPicture, points: Array, normals: Array, gr
     picture, depth = camera.project(points)
     slope = np.sqrt(1 - np.clip(cosine, 0, 1) ** 2) / np.maximum(cosine, 1e-3)
     allowance = 0.3 + 1.5 * depths.pixel * slope * depth / camera.standoff
-    return (cosine > np.sin(grazing)) & (depth < depths.at(picture) + allowance)
+    return (cosine > np.sin(grazing)) & (depth > 0) & (depth < depths.at(picture) + allowance)

@@ -83,7 +83,7 @@ def cameras(target: Target, settings: SensorSettings) -> list[tuple[Camera, Dept
     pixel = pixel_size(float(np.linalg.norm(high - low)))
     dense = target.grid(0.5 * pixel)
     placed = [place(view, target.centre, settings.standoff) for view in settings.views]
-    return [(camera, depth_picture(camera, dense, pixel)) for camera in placed]
+    return [(camera, depth_picture(camera, dense, pixel, settings.field)) for camera in placed]
 
 
 def in_field(picture: Array, settings: SensorSettings) -> NDArray[np.bool_]:
@@ -101,9 +101,8 @@ def _shot(target: Target, camera: Camera, depths: DepthPicture, settings: Sensor
           rng: np.random.Generator) -> _Shot:
     """One shot: what is seen, as dense as the picture is, with noise along the lines of sight."""
     samples = target.sample(_NEARNESS * settings.spacing**-2, rng)
-    picture, depth = camera.project(samples.points)
-    cosine = np.einsum("ij,ij->i", samples.normals, camera.towards(samples.points))
-    kept = rng.random(len(samples)) < cosine * (settings.standoff / depth) ** 2 / _NEARNESS
+    picture, _ = camera.project(samples.points)
+    kept = rng.random(len(samples)) < camera.magnification(samples.points, samples.normals) / _NEARNESS
     kept &= in_field(picture, settings) & sees(camera, depths, samples.points, samples.normals, settings.grazing)
     if settings.edge_dropout:
         beside = depths.beside_jump(picture, settings.edge_band)
