@@ -2,7 +2,7 @@
 """Curves of edges on deformed faces: fitted to what the faces say, and how far they are from each face."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,9 @@ from .pcurves import Pcurve
 
 _GAP_SAMPLES = 257
 _GAP_SAMPLES_PER_SPAN = 4
+_KINK = 1e-4
+"""Relative change of the derivative at a knot from which on the curve counts as kinked there."""
+_KINK_STEP = 1e-5
 
 
 @dataclass(frozen=True)
@@ -63,10 +66,29 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
         return sum(trace.at(fraction) for trace in traces) / len(traces)
 
     breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])
+    breaks = _without_false_kinks(mean, breaks, last - first)
     curve = fit_curve(mean, first, last, breaks, tolerance)
     if closed:
         curve.poles[0] = curve.poles[-1] = 0.5 * (curve.poles[0] + curve.poles[-1])
     return curve
+
+
+def _without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: float) -> Array:
+    """Breaks of multiplicity three reduced to two where the tangent of ``f`` does not turn.
+
+    Knots may allow a kink that is not there; a C0 knot would make OCCT's Boolean check object to the edge.
+    """
+    if not len(breaks):
+        return breaks
+    distinct, count = np.unique(breaks, return_counts=True)
+    step = _KINK_STEP * length
+    at = distinct[:, None] + step * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
+    points = f(at.ravel()).reshape(len(distinct), 5, -1)
+    before = np.einsum("k,nkd->nd", [1.0, -4.0, 3.0], points[:, :3])
+    after = np.einsum("k,nkd->nd", [-3.0, 4.0, -1.0], points[:, 2:])
+    turned = np.linalg.norm(after - before, axis=1) > _KINK * np.maximum(np.linalg.norm(before, axis=1),
+                                                                         np.linalg.norm(after, axis=1))
+    return np.repeat(distinct, np.where(turned, np.minimum(count, 3), np.minimum(count, 2)))
 
 
 def largest_gap(curve: Curve, matrix: Array, first: float, last: float, traces: Sequence[Trace]) -> float:
