@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rows of the normal equations at the current shape: what the scan says, and what the shape resists."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..splines import Array
+from .problem import Problem
+from .raster import Jet, normals
+from .values import CellValues
+
+
+@dataclass(frozen=True)
+class NormalEquations:
+    """A δ = right on the pattern of the problem: ``blocks`` (size, 3, 3), ``right`` (controls, 3)."""
+
+    blocks: Array
+    right: Array
+
+    def __add__(self, other: NormalEquations) -> NormalEquations:
+        return NormalEquations(self.blocks + other.blocks, self.right + other.right)
+
+
+def data_equations(problem: Problem, jet: Jet, values: CellValues) -> NormalEquations:
+    """Point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the normal)."""
+    shape = problem.cells.inside.shape
+    normal = normals(jet, problem.cells.outward)[0]
+    weight = values.weight.reshape(shape)
+    used = np.flatnonzero(weight.any(axis=1))
+    table = problem.cells.tables[0]
+    normal, weight = normal[used], weight[used]
+    products = (table[:, :, None] * table[:, None, :]).reshape(len(table), 256)
+    blocks = np.zeros((problem.pattern.size, 3, 3))
+    position = problem.pattern.span_position.reshape(-1, 256)[used].ravel()
+    for a in range(3):
+        for b in range(a, 3):
+            value = (weight * normal[:, :, a] * normal[:, :, b]) @ products
+            blocks[:, a, b] = np.bincount(position, weights=value.ravel(), minlength=problem.pattern.size)
+            blocks[:, b, a] = blocks[:, a, b]
+    pull = (weight * values.height.reshape(shape)[used])[:, :, None] * normal
+    return NormalEquations(blocks, gather(problem, np.matmul(table.T, pull), used))
+
+
+def gather(problem: Problem, loads: Array, spans: Array | slice = slice(None)) -> Array:
+    """Sum loads of spans (spans, 16, 3) over the control points: (controls, 3)."""
+    controls = problem.lattices.controls[spans].ravel()
+    flat = loads.reshape(-1, 3)
+    return np.stack([np.bincount(controls, weights=flat[:, k], minlength=problem.lattices.count) for k in range(3)], axis=1)
+
+
+def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array) -> NormalEquations:
+    """Bending, couplings and, with a weight per span, isometry at the current shape."""
+    settings, stiffness = problem.settings, problem.stiffness
+    weight = bending / (settings.curvature * settings.curvature_length) ** 2
+    jet = stiffness.places.displaced(problem.lattices, control_points, 3)
+    normal = normals(jet, stiffness.places.outward)[0]
+    scalar = weight * problem.bending + problem.coupled
+    blocks = scalar[:, None, None] * np.eye(3) + problem.dihedral
+    right = (weight * gather(problem, stiffness.bending_load(normal - stiffness.normal))
+             + problem.couplings.thickness_load(control_points)
+             + problem.couplings.dihedral_load(control_points) - _apply(problem, scalar, control_points))
+    return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, isometry)
+
+
+def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:
+    product = scalar[:, None] * control_points[problem.pattern.indices]
+    return np.add.reduceat(product, problem.pattern.indptr[:-1], axis=0)
+
+
+def _isometry(problem: Problem, control_points: Array, normal: Array, isometry: Array) -> NormalEquations:
+    thickness = problem.couplings.pairs.of_face[problem.lattices.face_of_span]
+    strain, rows = problem.stiffness.strain(problem.lattices, control_points, normal, thickness)
+    spans = len(rows)
+    flat = rows.reshape(spans, -1, 48)
+    weight = np.repeat(problem.stiffness.weight * isometry[:, None], 3, axis=1)[:, :, None]
+    blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(spans, 16, 3, 16, 3)
+    values = np.empty((problem.pattern.size, 3, 3))
+    for a in range(3):
+        for b in range(3):
+            values[:, a, b] = problem.pattern.from_spans(blocks[:, :, a, :, b])
+    load = np.matmul(flat.swapaxes(1, 2), weight * strain.reshape(spans, -1, 1)).reshape(spans, 16, 3)
+    return NormalEquations(values, -gather(problem, load))

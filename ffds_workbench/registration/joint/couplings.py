@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rows that tie control points of different faces: shared edges, poles, sheet thickness, edge angles, frozen faces, pose.
+
+All of them are linear in the displacement with constant coefficients; where a rotation enters, it is the current one,
+on the right-hand side.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix, diags, vstack
+
+from ..splines import Array
+from .lattice import Index, Lattices
+from .part import JointPart
+from .samples import Samples, sample
+from .settings import JointSettings
+from .sheet import SheetPairs
+
+_FROZEN = 1e9
+_SMOOTHEST = 1e-9
+
+
+@dataclass(frozen=True)
+class EdgeSamples:
+    """Places along all edges that two faces share: ``first`` on one face, ``second`` on the other, edge by edge."""
+
+    first: Samples
+    second: Samples
+    edge: Index
+    length: Array
+    direction: Array
+
+
+@dataclass(frozen=True)
+class Couplings:
+    """Constant rows and what is needed for their right-hand sides.
+
+    Attributes
+    ----------
+    scalar : (controls, controls) normal matrix of the rows that act alike on x, y and z
+    thickness_rows : (pairs, controls) d_back − d_front
+    thickness_weight : (pairs,) 1/mm²
+    dihedral : (3 controls, 3 controls) normal matrix of the edge angles
+    dihedral_rows : (samples, 3 controls) change of the angle between the faces
+    """
+
+    scalar: csr_matrix
+    pairs: SheetPairs
+    edges: EdgeSamples
+    thickness_rows: csr_matrix
+    thickness_weight: Array
+    dihedral: csr_matrix
+    dihedral_rows: csr_matrix
+    dihedral_weight: Array
+
+    def thickness_load(self, control_points: Array) -> Array:
+        """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3)."""
+        if not len(self.pairs.thickness):
+            return np.zeros_like(control_points)
+        now, nominal = self._pair_normal(control_points), self._pair_normal(np.zeros_like(control_points))
+        target = -self.pairs.thickness[:, None] * (now - nominal)
+        return self.thickness_rows.T @ (self.thickness_weight[:, None] * target)
+
+    def _pair_normal(self, control_points: Array) -> Array:
+        """Normal of a sheet at the pairs, from both skins: (pairs, 3)."""
+        mean = self.pairs.front.normals(control_points) - self.pairs.back.normals(control_points)
+        return mean / np.linalg.norm(mean, axis=1, keepdims=True)
+
+    def dihedral_load(self, control_points: Array) -> Array:
+        """Gradient that brings every edge back to its nominal angle, (controls, 3)."""
+        change = _angle(self.edges, control_points) - _angle(self.edges, np.zeros_like(control_points))
+        change = np.mod(change + np.pi, 2 * np.pi) - np.pi
+        return -(self.dihedral_rows.T @ (self.dihedral_weight * change)).reshape(-1, 3)
+
+    def measured_thickness(self, control_points: Array) -> Array:
+        """Current thickness at the pairs in mm."""
+        normal = self._pair_normal(control_points)
+        gap = (self.pairs.front.nominal[0] + self.pairs.front.displacement(control_points)
+               - self.pairs.back.nominal[0] - self.pairs.back.displacement(control_points))
+        return np.einsum("nx,nx->n", gap, normal)
+
+
+def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, settings: JointSettings) -> Couplings:
+    """All constant rows of a part."""
+    count = lattices.count
+    edges = _edge_samples(part, lattices)
+    rows = vstack([edges.first.matrix(count) - edges.second.matrix(count), _pole_rows(part, lattices)]).tocsr()
+    thickness_rows = pairs.back.matrix(count) - pairs.front.matrix(count)
+    # One pair is one independent statement per square of the thickness; closer ones share it.
+    thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
+                        / settings.thickness_sigma**2)
+    dihedral_rows = _dihedral_rows(edges, lattices)
+    dihedral_weight = edges.length / np.mean(edges.length) / settings.dihedral_sigma**2 if len(edges.edge) else np.zeros(0)
+    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + thickness_rows.T @ diags(thickness_weight) @ thickness_rows
+              + diags(_anchor(part, lattices, settings)))
+    dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
+    return Couplings(scalar.tocsr(), pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,
+                     dihedral_weight)
+
+
+def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings) -> Array:
+    """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs."""
+    weight = np.zeros(lattices.count)
+    for solid in part.solids:
+        own = np.isin(lattices.face_of_control, solid)
+        weight[own] = settings.pose_sigma**-2 / max(own.sum(), 1)
+    weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN
+    return weight
+
+
+def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
+    face, uv, edge, length, direction = [[], []], [[], []], [], [], []
+    for number, shared in enumerate(part.edges):
+        if shared.degenerate or len(shared.faces) < 2:
+            continue
+        for other in range(1, len(shared.faces)):
+            for side, k in enumerate((0, other)):
+                face[side].append(np.full(len(shared.points), shared.faces[k]))
+                uv[side].append(shared.uv[k])
+            along = np.gradient(shared.points, axis=0)
+            step = np.linalg.norm(along, axis=1)
+            edge.append(np.full(len(step), number))
+            length.append(step)
+            direction.append(along / np.maximum(step, 1e-12)[:, None])
+    none = [np.zeros((0, 2))]
+    first, second = (sample(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[k]]),
+                            np.concatenate(none + uv[k])) for k in (0, 1))
+    return EdgeSamples(first, second, np.concatenate([np.zeros(0, dtype=np.intp), *edge]),
+                       np.concatenate([np.zeros(0), *length]), np.concatenate([np.zeros((0, 3)), *direction]))
+
+
+def _pole_rows(part: JointPart, lattices: Lattices) -> csr_matrix:
+    """d is the same all along a degenerate edge."""
+    blocks = [csr_matrix((0, lattices.count))]
+    for shared in part.edges:
+        if shared.degenerate:
+            for face, uv in zip(shared.faces, shared.uv, strict=True):
+                row = sample(part.faces, lattices, np.full(len(uv), face), uv).matrix(lattices.count)
+                blocks.append(row[1:] - row[:-1])
+    return vstack(blocks).tocsr()
+
+
+def _angle(edges: EdgeSamples, control_points: Array) -> Array:
+    """Signed angle between the outward normals about the edge's direction: (samples,)."""
+    first, second = edges.first.normals(control_points), edges.second.normals(control_points)
+    sine = np.einsum("nx,nx->n", np.cross(first, second), edges.direction)
+    return np.arctan2(sine, np.einsum("nx,nx->n", first, second))
+
+
+def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> csr_matrix:
+    """Change of `_angle` by the control points, to first order about the nominal shape: (samples, 3 controls).
+
+    A face turns about the edge's direction t by n·∂d/∂m, with m = t × n the direction in the face across the edge.
+    """
+    sides = []
+    for side in (edges.first, edges.second):
+        normal = side.normals(np.zeros((lattices.count, 3)))
+        across = np.cross(edges.direction, normal)
+        tangents = side.tangents(np.zeros((lattices.count, 3)))
+        metric = np.einsum("anx,bnx->nab", tangents, tangents)
+        metric += _SMOOTHEST * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(2)
+        slope = np.linalg.solve(metric, np.einsum("anx,nx->na", tangents, across)[:, :, None])[:, :, 0]
+        derivative = np.einsum("na,anc->nc", slope, side.weights[1:])
+        values = derivative[:, :, None] * normal[:, None, :]
+        columns = 3 * side.controls[:, :, None] + np.arange(3)
+        start = np.arange(len(side) + 1) * 48
+        sides.append(csr_matrix((values.ravel(), columns.ravel(), start), shape=(len(side), 3 * lattices.count)))
+    return (sides[0] - sides[1]).tocsr()
+
+

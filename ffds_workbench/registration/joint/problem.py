@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Everything about a part and a scan that stays the same while the joint solve runs."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ...errors import RefusedError
+from ..splines import Array
+from .couplings import Couplings, make_couplings
+from .lattice import Index, Lattices, build_lattices
+from .part import JointPart
+from .raster import Places, distance_to_trims, make_places, normals
+from .settings import JointSettings
+from .sheet import find_pairs
+from .statistics import ScanStatistics, scan_statistics
+from .stiffness import GAUSS_PLACES, Stiffness, make_stiffness
+from .system import Pattern
+
+_SAMPLE = 20000
+_POINTS_PER_CELL = 8.0
+_POINTS_PER_SPAN = 20.0
+_FEWEST_POINTS = 50
+_CELLS_PER_SPAN = (3, 10)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Constants of one joint solve.
+
+    Attributes
+    ----------
+    scan, sample : all scan points and a random sample of them, (n, 3) in mm
+    statistics : density and noise of the scan
+    lattices, cells, stiffness, couplings, pattern : see their modules
+    distance : (spans, k) of the cells from the border of their face in mm, negative outside
+    area : (spans, k) of the cells in mm²
+    bending : bending on the pattern, without its weight
+    """
+
+    part: JointPart
+    settings: JointSettings
+    scan: Array
+    sample: Array
+    statistics: ScanStatistics
+    lattices: Lattices
+    cells: Places
+    distance: Array
+    area: Array
+    stiffness: Stiffness
+    couplings: Couplings
+    pattern: Pattern
+    bending: Array
+    coupled: Array
+    dihedral: Array
+
+    @property
+    def face_of_cell(self) -> Index:
+        """Face of every cell by its flat number."""
+        return np.repeat(self.lattices.face_of_span, self.cells.inside.shape[1])
+
+
+def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int]) -> Problem:
+    """Lattices, rasters and constant rows of a part for a scan; ``finer`` divides the spans of some faces.
+
+    Raises
+    ------
+    RefusedError : the scan has too few points, or every face is frozen.
+    """
+    if len(part.frozen) == len(part.faces):
+        raise RefusedError("Every face is frozen: leave at least one face free to move.")
+    if len(scan) < _FEWEST_POINTS:
+        raise RefusedError(f"The scan has only {len(scan)} points: at least {_FEWEST_POINTS} are needed.")
+    pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE]
+    sample = scan[pick]
+    statistics = scan_statistics(sample, len(sample) / len(scan))
+    span = max(settings.span, np.sqrt(_POINTS_PER_SPAN / statistics.density))
+    lattices = build_lattices(part.faces, span, settings.turning, finer)
+    per_span = int(np.clip(span / np.sqrt(_POINTS_PER_CELL / statistics.density), *_CELLS_PER_SPAN))
+    cells = make_places(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
+    stiffness = make_stiffness(lattices, make_places(part.faces, lattices, GAUSS_PLACES))
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    couplings = make_couplings(part, lattices, pairs, settings)
+    pattern = Pattern(lattices, (couplings.scalar, _nodes_of(couplings.dihedral)))
+    area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
+    return Problem(part, settings, scan, sample, statistics, lattices, cells,
+                   distance_to_trims(part.faces, lattices, cells), np.where(cells.inside, area, 0.0), stiffness, couplings,
+                   pattern, pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
+                   pattern.from_vector(couplings.dihedral))
+
+
+def _nodes_of(matrix: csr_matrix) -> csr_matrix:
+    """Scalar pattern of a matrix with three rows and columns per control point."""
+    coo = matrix.tocoo()
+    n = matrix.shape[0] // 3
+    return csr_matrix((np.ones(coo.nnz), (coo.row // 3, coo.col // 3)), shape=(n, n))
+
+

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the joint solve returns."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ..splines import Array, SplineSurface
+
+Flag = Literal["observed", "bridged", "carried"]
+"""Seen by the scan; in a gap of it; or moved along by what is seen elsewhere."""
+
+
+@dataclass(frozen=True)
+class JointFace:
+    """One face.
+
+    Attributes
+    ----------
+    name : "Face6"
+    displacement : d(u, v) in mm over the face's own (u, v)
+    points : scan points that carry weight
+    coverage : share of the face's area that the scan observes, 0…1
+    noise : standard deviation in mm of the scan about the face
+    flag : what the face as a whole rests on
+    band : half width of the 95 % band of the distance from the true surface, in mm, 95th percentile over the face
+    """
+
+    name: str
+    displacement: SplineSurface
+    points: int
+    coverage: float
+    noise: float
+    flag: Flag
+    band: float
+
+
+@dataclass(frozen=True)
+class EdgeRegistration:
+    """One edge.
+
+    Attributes
+    ----------
+    name : "Edge12"
+    points : (m, 3) on the as-built edge, in mm
+    bands : (m,) half width of the 95 % band there, across the edge, in mm
+    flags : (m,) flag there
+    flag : the weakest flag along the edge
+    band : the largest band along the edge, in mm
+    """
+
+    name: str
+    points: Array
+    bands: Array
+    flags: tuple[Flag, ...]
+    flag: Flag
+    band: float
+
+
+@dataclass(frozen=True)
+class SolidMotion:
+    """How one solid moved as a whole: ``T_asbuilt_nominal`` (4, 4), and the rms in mm of what is left as deformation."""
+
+    T_asbuilt_nominal: Array
+    deformation: float
+
+
+@dataclass(frozen=True)
+class JointRegistration:
+    """The registration of the whole part.
+
+    Attributes
+    ----------
+    faces, edges : in FreeCAD's order
+    solids : rigid motion of each solid of the part
+    thickness : as-built mean thickness in mm of each solid that is a sheet, else None
+    strain : rms strain of the mid surface that was found on observed faces
+    isometric : whether the part was held inextensible
+    iterations : Gauss-Newton steps
+    last_step : largest change of a surface point in mm in the last step
+    used : number of scan points that carry weight
+    """
+
+    faces: tuple[JointFace, ...]
+    edges: tuple[EdgeRegistration, ...]
+    solids: tuple[SolidMotion, ...]
+    thickness: tuple[float | None, ...]
+    strain: float
+    isometric: bool
+    iterations: int
+    last_step: float
+    used: int

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Settings of the joint solve. Every weight is the inverse of a variance with a physical meaning."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class SensorProfile:
+    """What is known of a sensor's noise beforehand; it is a property of the sensor, measured on a flat datum.
+
+    Attributes
+    ----------
+    sigma : white noise in mm, or None to take it from the scan
+    sigma_correlated : noise in mm that neighbouring points share
+    length : correlation length in mm: the correlation falls as exp(−r²/2l²)
+    """
+
+    sigma: float | None = None
+    sigma_correlated: float = 0.0
+    length: float = 0.0
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One step of the schedule: stiff first, soft later.
+
+    Attributes
+    ----------
+    bending : multiplies the bending weight
+    gate : scan points farther than this from the model are left out, in mm
+    iterations : Gauss-Newton steps
+    all_points : every scan point with Tukey weights per cell, instead of a sample with medians
+    """
+
+    bending: float
+    gate: float
+    iterations: int
+    all_points: bool = False
+
+
+SCHEDULE = (Stage(1e3, 3.0, 2), Stage(1e2, 2.0, 1), Stage(10, 1.5, 1), Stage(1, 1.2, 5), Stage(1, 0.6, 2, True))
+
+
+@dataclass(frozen=True)
+class JointSettings:
+    """How the joint solve is to work; the defaults were measured on sheet parts of 50–150 mm.
+
+    Attributes
+    ----------
+    span : size of a lattice span in mm where the scan is dense
+    turning : largest turn of the normal over a span, in rad
+    isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
+    curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; the bending weight is 1/(κ₀ l)²
+    isometry_weight, isometry_weight_soft : weight of the strain per mm² for isometric and for stretched parts
+    thickness_sigma : how well a sheet keeps its thickness, in mm
+    edge_sigma : how well faces agree along an edge, in mm
+    dihedral_sigma : how well an edge keeps its angle, in rad
+    pose_sigma : how far a solid may sit from its place, in mm
+    schedule : the stages
+    sensor : noise of the sensor
+    refine : divide the spans of faces whose residual exceeds the noise
+    seed : of the random sample of scan points
+    """
+
+    span: float = 8.0
+    turning: float = float(np.deg2rad(25))
+    isometry: Literal["auto", "on", "off"] = "auto"
+    curvature: float = 0.002
+    curvature_length: float = 10.0
+    isometry_weight: float = 3000.0
+    isometry_weight_soft: float = 30.0
+    thickness_sigma: float = 0.02
+    edge_sigma: float = 1e-3
+    dihedral_sigma: float = 0.01
+    pose_sigma: float = 1.0
+    schedule: tuple[Stage, ...] = SCHEDULE
+    sensor: SensorProfile = field(default_factory=SensorProfile)
+    refine: bool = True
+    seed: int = 0
