@@ -45,12 +45,12 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (1
     source = face.surface.on_grid(u, v)[on_face]
     _check_source(face, control, len(source))
     distance, nearest = nearest_neighbours(scan, source)                      # step 3: closest neighbour in T
-    coverage = _check_coverage(face, distance, reach)
+    coverage = check_coverage(face, distance, reach)
     displacement_points = scan[nearest] - source                              # Δp
     control_points = solve(control, u, v, on_face, displacement_points)       # step 4: ΔP̃ = B⁺ Δp (Eq. 4)
     displacement = control.field(control_points)                              # step 5: L̃(p) = Σ N N (P̃ + ΔP̃) (Eq. 2)
     residual = scan[nearest] - source - displacement.on_grid(u, v)[on_face]
-    noise = 1.4826 * float(np.median(np.abs(_along_normal(face, u, v, on_face, residual))))
+    noise = 1.4826 * float(np.median(np.abs(along_normal(face, u, v, on_face, residual))))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 
@@ -118,7 +118,7 @@ def _equidistant(x: Array, steps: Array, count: int, closed: bool) -> Array:
     return np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, x)
 
 
-def _along_normal(face: FaceGeometry, u: Array, v: Array, on_face: Array, vectors: Array) -> Array:
+def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: Array, vectors: Array) -> Array:
     """Components of vectors at the source points along the nominal normal, (q,)."""
     derivatives = [face.surface.derivative(*d) for d in ((1, 0), (0, 1))]
     tangent_u, tangent_v = (d.on_grid(u, v)[on_face] for d in derivatives)
@@ -135,7 +135,7 @@ def _check_source(face: FaceGeometry, control: ControlLattice, source_points: in
             f"determined by {source_points} source points; choose a smaller lattice or more source points.")
 
 
-def _check_coverage(face: FaceGeometry, distance: Array, reach: float) -> float:
+def check_coverage(face: FaceGeometry, distance: Array, reach: float) -> float:
     coverage = float(np.mean(distance <= reach))
     if coverage < _LEAST_COVERAGE:
         raise RefusedError(
