@@ -19,7 +19,7 @@ from .trims import inside_trims
 REACH = 10.0
 """Farther from the nominal than this (mm), a scan point is not taken for the face's own."""
 
-_SMALLEST_SINGULAR_VALUE = 1e-6
+SMALLEST_SINGULAR_VALUE = 1e-6
 _LEAST_COVERAGE = 0.1
 
 
@@ -91,7 +91,7 @@ def basis(control: ControlLattice, u: Array, v: Array) -> Array:
 
 def pseudo_inverse(matrix: Array) -> Array:
     """Moore–Penrose inverse; directions that the source points hardly see are left at rest."""
-    return np.asarray(np.linalg.pinv(matrix, rcond=_SMALLEST_SINGULAR_VALUE))
+    return np.asarray(np.linalg.pinv(matrix, rcond=SMALLEST_SINGULAR_VALUE))
 
 
 def equidistant_grid(face: FaceGeometry, count: int) -> tuple[Array, Array, Array]:
