@@ -8,6 +8,7 @@ import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 import pytest
+from scipy.spatial import cKDTree
 
 from ffds_workbench.benchmark import warps
 from ffds_workbench.benchmark.families import WARPS, deformation, edge_points, make_case
@@ -81,6 +82,5 @@ def test_a_case_is_a_folder_that_tells_the_truth(tmp_path):
     nominal = Part.Vertex(FreeCAD.Vector(*truth["nominal"][7]))
     assert nominal.distToShape(shape.Faces[truth["face"][7]])[0] < 1e-5
     # the scan stands about the warped part: the noise of 0.13 mm along the view, and the truth's own spacing of 1.2 mm
-    from scipy.spatial import cKDTree
     near = cKDTree(truth["warped"][truth["visible"]]).query(case.scan.points[::50])[0]
     assert np.median(near) < 1.0 and near.max() < 6.0
