@@ -66,6 +66,8 @@ def boundary_points(face: FaceGeometry, spacing: float) -> Array:
     pieces = np.where(length > _ON_BOUNDARY, np.ceil(length / spacing), 0).astype(np.intp)
     segment = np.repeat(np.arange(len(start)), pieces)
     step = np.arange(len(segment)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    if not len(segment):
+        return np.zeros((0, 3))
     share = ((step + 0.5) / pieces[segment])[:, None]
     return face.surface((1 - share) * start[segment] + share * end[segment])
 

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One step of a robust fit: residuals of the scan against the current surface, cell by cell, and the lattice they ask for.
+
+The displaced surface S + d is written over the nominal as scan points are: the point of material cell (x, y) has its
+nominal foot point at (x + shift) and the height H there. So the scan is compared with it without projecting it again.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bending import bending_and_gauge
+from .control_lattice import ControlLattice
+from .face import FaceGeometry
+from .footpoints import SurfaceCoordinates, newton_in_cells
+from .normal_equations import grid_products, normal_matrix, offset_products, solve
+from .raster import Raster, dot
+from .splines import Array, SplineSurface, basis_matrix
+from .start import SmallMotion, tukey
+
+Index = NDArray[np.intp]
+
+_NOISE_CUT = 4.685
+"""Tukey's constant: 95 % efficiency on normal noise."""
+_LEAST_NOISE = 0.005
+_STEEPEST = 0.5
+"""Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
+
+
+@dataclass(frozen=True)
+class RobustSettings:
+    """Settings of `register_robust`.
+
+    Attributes
+    ----------
+    reach : largest distance in mm from the nominal at which a point may belong to the face
+    margin : points nearer than this (mm) to a trim, or to half the face's half width, carry no weight
+    curvature, length : expected bending of the displacement (1/mm) and the length over which it varies (mm); their
+        product squared is the variance that weighs the bending energy
+    gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
+    schedule : bending multiplier and gate in mm of each early step, on the layers of the scan
+    final : the same for the last steps, on all points
+    sample : number of scan points that the early steps look at
+    """
+
+    reach: float = 10.0
+    margin: float = 0.7
+    curvature: float = 0.002
+    length: float = 10.0
+    gauge: float = 1e-4
+    schedule: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0), (1e2, 1.5), (30, 1.2), (10, 1.0))
+    final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
+    sample: int = 20000
+
+    @property
+    def stiffness(self) -> float:
+        """Weight of the bending energy in chi-square units."""
+        return 1 / (self.curvature * self.length) ** 2
+
+
+@dataclass(frozen=True)
+class State:
+    """A displacement on the raster, and the data behind it.
+
+    Attributes
+    ----------
+    d, d_x, d_y : (m·n, 3), displacement and its derivatives per cell, in mm
+    control_points : stored control points (nu, nv, components), None for a rigid motion
+    weights : (m·n,) sum of the Tukey weights of the points of each cell
+    points : number of points with weight
+    noise : robust standard deviation of the points about the surface that this step started from
+    """
+
+    d: Array
+    d_x: Array
+    d_y: Array
+    control_points: Array | None = None
+    weights: Array | None = None
+    points: int = 0
+    noise: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Graph:
+    """The current surface over the nominal, per material cell: shift of the foot point and height, with gradients in
+    nominal cell coordinates; the current normal, and its cosine to the nominal one."""
+
+    shift_x: Array
+    shift_y: Array
+    height: Array
+    slope_x: Array
+    slope_y: Array
+    normal: Array
+    cosine: Array
+    usable: NDArray[np.bool_]
+
+
+class RasterFit:
+    """Fits displacements of one control lattice on one raster."""
+
+    def __init__(self, face: FaceGeometry, raster: Raster, lattice: ControlLattice, settings: RobustSettings) -> None:
+        self.raster, self.lattice, self.settings = raster, lattice, settings
+        self.directions = raster.normal[:1] if raster.flat else np.eye(3)
+        self.layout = normal_matrix(lattice, len(self.directions))
+        self.bending, self.gauge = bending_and_gauge(face.surface, lattice, self.layout)
+        self.basis_u = [basis_matrix(lattice.knots_u, raster.u, derivative=k) * raster.step[0] ** k for k in (0, 1)]
+        self.basis_v = [basis_matrix(lattice.knots_v, raster.v, derivative=k) * raster.step[1] ** k for k in (0, 1)]
+        self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
+        self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
+        margin = min(settings.margin, 0.5 * float(np.max(raster.depth[raster.inside], initial=0.0)))
+        self.counts = raster.inside & (raster.depth >= margin)
+
+    def moved(self, motion: SmallMotion) -> State:
+        """The nominal face after a small rigid motion; along the normal alone where the face is flat."""
+        raster = self.raster
+        fields = (motion.displacement(raster.position), np.cross(motion.turn, raster.tangent_u),
+                  np.cross(motion.turn, raster.tangent_v))
+        if raster.flat:
+            fields = tuple(dot(f, raster.normal)[:, None] * raster.normal for f in fields)
+        return State(*fields)
+
+    def step(self, state: State, points: SurfaceCoordinates, count: Array | None, noise: float, stiffness: float,
+             gate: float) -> State:
+        """Weigh the points about the current surface, and solve for the displacement they ask for.
+
+        Parameters
+        ----------
+        count : weight of each point, one if None
+        noise : standard deviation of a point along the normal, in mm
+        stiffness : multiplier of the bending energy
+        gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
+        """
+        graph = self._graph(state)
+        cell, residual = self._residuals(graph, points)
+        gate = max(gate, _NOISE_CUT * noise)
+        near = np.abs(residual) < gate
+        weight = np.where(near & (cell >= 0), tukey(residual, gate), 0.0)
+        weight *= self.counts[cell]
+        if count is not None:
+            weight *= count
+        cells = len(self.counts)
+        total = np.bincount(cell, weight, cells) if count is None else np.bincount(cell, weight, cells)
+        mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
+        spread = np.abs(residual[weight > 0])
+        new_noise = max(1.4826 * float(np.median(spread)), _LEAST_NOISE) if len(spread) else noise
+        data = np.where(graph.usable, total, 0.0) / max(noise, _LEAST_NOISE) ** 2
+        row = graph.normal @ self.directions.T
+        target = dot(graph.normal, state.d) + mean * graph.cosine
+        control_points = self._solve(row, target, data, stiffness)
+        return self._state(control_points, total, int(np.count_nonzero(weight)), new_noise)
+
+    def field(self, state: State) -> SplineSurface:
+        """The displacement of a state as a spline in mm."""
+        lattice = self.lattice
+        return SplineSurface(lattice.knots_u, lattice.knots_v, state.control_points @ self.directions,
+                             periodic_u=lattice.periodic_u, periodic_v=lattice.periodic_v)
+
+    def _graph(self, state: State) -> _Graph:
+        raster = self.raster
+        if raster.flat:
+            height, slope_x, slope_y = (dot(f, raster.normal) for f in (state.d, state.d_x, state.d_y))
+            none, one = np.zeros_like(height), np.ones_like(height)
+            return _Graph(none, none, height, slope_x, slope_y, raster.normal, one, one > 0)
+        m, n = raster.shape
+        cells = np.arange(m * n)
+        x, y, height, valid = newton_in_cells(raster, (raster.position + state.d).T, cells)
+        i, j = np.divmod(cells, n)
+        shift_x, shift_y = _nearest_turn(x - i - 0.5, m, raster.periodic[0]), _nearest_turn(y - j - 0.5, n, raster.periodic[1])
+        (xx, xy), (yx, yy), (hx, hy) = (_gradient(f.reshape(m, n), raster.periodic) for f in (shift_x, shift_y, height))
+        xx, yy = xx + 1, yy + 1
+        jacobian = xx * yy - xy * yx
+        steep = np.maximum.reduce([np.abs(xx - 1), np.abs(xy), np.abs(yx), np.abs(yy - 1)])
+        usable = valid & (steep < _STEEPEST)
+        jacobian = np.where(usable, jacobian, 1.0)
+        slope_x, slope_y = (yy * hx - yx * hy) / jacobian, (xx * hy - xy * hx) / jacobian
+        tangent_x, tangent_y = raster.tangent_u + state.d_x, raster.tangent_v + state.d_y
+        normal = np.cross(tangent_x, tangent_y)
+        normal *= np.sign(dot(normal, raster.normal))[:, None] / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        below = raster.cell(x, y)
+        cosine = dot(normal, raster.normal[np.where(below >= 0, below, cells)])
+        return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
+
+    def _residuals(self, graph: _Graph, points: SurfaceCoordinates) -> tuple[Index, Array]:
+        """Material cell of each point, −1 outside, and its height over the current surface in mm."""
+        raster = self.raster
+        x, y = points.x, points.y
+        if raster.flat:
+            material_x, material_y = x, y
+        else:
+            nominal = np.maximum(raster.cell(x, y), 0)
+            material_x, material_y = x - graph.shift_x[nominal], y - graph.shift_y[nominal]
+        cell = raster.cell(material_x, material_y)
+        i, j = np.divmod(cell, raster.shape[1])
+        dx = _nearest_turn(x - (i + 0.5) - graph.shift_x[cell], raster.shape[0], raster.periodic[0])
+        dy = _nearest_turn(y - (j + 0.5) - graph.shift_y[cell], raster.shape[1], raster.periodic[1])
+        return cell, points.height - graph.height[cell] - graph.slope_x[cell] * dx - graph.slope_y[cell] * dy
+
+    def _solve(self, row: Array, target: Array, data: Array, stiffness: float) -> Array:
+        """Control points that minimise Σ data (row · d − target)² + bending + gauge."""
+        shape, k = self.raster.shape, row.shape[1]
+        settings = self.settings
+        grids = (row[:, :, None] * row[:, None] * data[:, None, None]).reshape(*shape, k * k).transpose(2, 0, 1)
+        matrix = self.layout.symmetric(grid_products(grids, self.products_u, self.products_v))
+        matrix += stiffness * settings.stiffness * self.bending + settings.gauge * self.gauge
+        right = self.layout.right_side((row * (data * target)[:, None]).reshape(*shape, k), self.basis_u[0], self.basis_v[0])
+        return self.layout.control_points(solve(matrix, right))
+
+    def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> State:
+        fields = []
+        for a, b in ((0, 0), (1, 0), (0, 1)):
+            values = np.einsum("ui,ijc->ujc", self.basis_u[a], control_points)
+            values = np.einsum("ujc,vj->uvc", values, self.basis_v[b])
+            fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
+        return State(*fields, control_points, weights, points, noise)
+
+
+def _nearest_turn(x: Array, period: int, periodic: bool) -> Array:
+    return np.mod(x + 0.5 * period, period) - 0.5 * period if periodic else x
+
+
+def _gradient(f: Array, periodic: tuple[bool, bool]) -> tuple[Array, Array]:
+    """Central differences per cell on the raster, flattened; closed directions wrap."""
+    result = []
+    for axis, closed in enumerate(periodic):
+        if closed:
+            result.append(0.5 * (np.roll(f, -1, axis) - np.roll(f, 1, axis)).ravel())
+        else:
+            result.append(np.gradient(f, axis=axis).ravel())
+    return result[0], result[1]

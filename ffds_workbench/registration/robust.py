@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Method ``robust``: a face fitted to all its scan points on a (u, v) raster, stiff first and soft later.
+
+Scan points are expressed once as foot point and height over the nominal face. From then on every step works on the
+raster: the residuals of each cell's points are averaged with Tukey weights, and the control lattice takes the
+displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the
+wider the gate.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from ..errors import RefusedError
+from .control_lattice import displacement_lattice
+from .face import FaceGeometry
+from .footpoints import SurfaceCoordinates, surface_coordinates
+from .lattice_size import automatic_lattice
+from .raster import Raster, make_raster
+from .raster_fit import RasterFit, RobustSettings
+from .result import FaceRegistration
+from .splines import Array
+from .start import outermost_layers, rigid_start
+
+_FEWEST_POINTS = 30
+
+
+def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
+                    settings: RobustSettings = RobustSettings()) -> FaceRegistration:
+    """Deform a face to a scan that may be noisy, incomplete and full of other things.
+
+    Parameters
+    ----------
+    face : the nominal face
+    scan : (n, 3) in mm, finite, in the frame of the model; clutter, other faces and gaps are expected
+    lattice : (N_i, N_j) control points in u and v, or None to choose them from the data
+    settings : gates, stiffness and reach
+
+    Raises
+    ------
+    RefusedError
+        Too little of the scan lies on the face, or the lattice is too fine for it.
+    """
+    raster = make_raster(face)
+    points = surface_coordinates(raster, scan, settings.reach).on_face(raster)
+    _check_points(face, points, settings)
+    layers = outermost_layers(raster, points.sample(settings.sample))
+    layers = replace(layers, density=layers.density * max(1.0, len(points.x) / settings.sample))
+    size = lattice or automatic_lattice(face.surface, raster, layers, settings.stiffness)
+    fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
+    _check_lattice(face, fit, points)
+    state = fit.moved(rigid_start(raster, layers))
+    for stiffness, gate in settings.schedule:
+        state = fit.step(state, layers.as_points(), layers.count, layers.noise, stiffness, gate)
+    noise = layers.noise
+    for stiffness, gate in settings.final:
+        state = fit.step(state, points, None, noise, stiffness, gate)
+        noise = state.noise
+    return FaceRegistration(face.name, fit.field(state), state.points, coverage(raster, state.weights), state.noise)
+
+
+def coverage(raster: Raster, weights: Array) -> float:
+    """Share of the face's area that lies within about one spacing of a cell that holds scan points."""
+    seen = (weights > 0).reshape(raster.shape)
+    if not seen.any():
+        return 0.0
+    inside = raster.inside.reshape(raster.shape)
+    per_cell = weights[weights > 0].mean()
+    share = seen[inside].mean()
+    radius = int(np.ceil(0.5 / np.sqrt(max(share, 1e-4)))) if per_cell < 3 else 1
+    modes = ["wrap" if closed else "nearest" for closed in raster.periodic]
+    for axis, mode in enumerate(modes):
+        seen = maximum_filter1d(seen, 2 * radius + 1, axis=axis, mode=mode)
+    area = raster.area.reshape(raster.shape)[inside]
+    return float((area * seen[inside]).sum() / area.sum())
+
+
+def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: RobustSettings) -> None:
+    if len(points.x) < _FEWEST_POINTS:
+        raise RefusedError(
+            f"The scan does not lie on {face.name}: {len(points.x)} of its points are within {settings.reach:g} mm of the "
+            f"face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
+
+
+def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates) -> None:
+    occupied = len(np.unique(fit.raster.cell(points.x, points.y)))
+    if fit.lattice.free > occupied:
+        rows, columns = fit.lattice.unknown.shape
+        raise RefusedError(
+            f"The lattice {rows}x{columns} is too fine for {face.name}: its {fit.lattice.free} control points are not "
+            f"determined by the {occupied} raster cells that hold scan points; choose a smaller lattice.")

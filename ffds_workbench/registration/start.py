@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a robust fit starts: which layer of the scan is the face, and the stiff motion that brings the face to it.
+
+A scan holds more than the face: the back of the sheet, a table, neighbours, outliers. Along the normal the points of a
+cell form layers; of those that are dense enough the outermost is what a sensor sees of the face.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .footpoints import SurfaceCoordinates
+from .raster import Raster
+from .splines import Array
+
+Index = NDArray[np.intp]
+
+_POINTS_PER_BLOCK = 16
+_SMALLEST_GAP = 0.5
+_GAP_IN_SIGMAS = 5.0
+_DENSE = 0.3
+"""A layer counts if it has this share of the points of the densest layer of its block."""
+_THIRD_OF_NORMAL = 0.8615
+"""Width of the shortest interval that holds a third of a normal distribution, in standard deviations."""
+_STARTS = 21
+_START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
+_TILT = 0.1
+_NOISE_CUT = 4.685
+
+
+@dataclass(frozen=True)
+class Layers:
+    """The outermost dense layer of each block of cells.
+
+    Attributes
+    ----------
+    x, y : (k,) mean cell coordinates of its points
+    height : (k,) median height in mm
+    count : (k,) number of points
+    noise : estimated standard deviation of the points along the normal in mm; slopes within a block included
+    density : points per mm² of face where the scan covers it
+    """
+
+    x: Array
+    y: Array
+    height: Array
+    count: Array
+    noise: float
+    density: float
+
+    def as_points(self) -> SurfaceCoordinates:
+        """The layers as if each were one scan point."""
+        return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height)
+
+
+def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
+    """Split the points of each block of cells at gaps along the normal, and take the outermost dense layer.
+
+    ``points`` must not be empty. Blocks are large enough to hold about 16 points where the scan covers the face.
+    """
+    block, edge = _blocks(raster, points)
+    order = np.lexsort((points.height, block))
+    block, height = block[order], points.height[order]
+    first = np.flatnonzero(np.diff(block, prepend=-1))
+    count = np.diff(np.append(first, len(block)))
+    noise = _noise(height, first, count)
+    gap = max(_SMALLEST_GAP, _GAP_IN_SIGMAS * noise)
+    start = np.flatnonzero((np.diff(block, prepend=-1) != 0) | (np.diff(height, prepend=-np.inf) > gap))
+    size = np.diff(np.append(start, len(block)))
+    owner = np.searchsorted(first, start, side="right") - 1
+    densest = np.maximum.reduceat(size, np.searchsorted(start, first))
+    dense = size >= _DENSE * densest[owner]
+    start, size, owner = start[dense], size[dense], owner[dense]
+    outermost = np.flatnonzero(np.diff(owner, append=-1) != 0)
+    start, size = start[outermost], size[outermost]
+    label = np.repeat(np.arange(len(start)), size)
+    member = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size) + np.repeat(start, size)
+    x, y = (np.bincount(label, a[order][member]) / size for a in (points.x, points.y))
+    density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
+    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density)
+
+
+@dataclass(frozen=True)
+class SmallMotion:
+    """An infinitesimal rigid motion x → x + shift + turn × (x − centre); mm and rad."""
+
+    shift: Array
+    turn: Array
+    centre: Array
+
+    def displacement(self, points: Array) -> Array:
+        """(n, 3) to (n, 3)."""
+        return self.shift + np.cross(self.turn, points - self.centre)
+
+
+def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
+    """The small rigid motion that explains most of the layers.
+
+    Motions are fitted from starts spread along the normal, with gates that narrow; the one that explains most blocks
+    wins, the one nearer to the nominal where two explain about as many.
+    """
+    cell = raster.cell(layers.x, layers.y)
+    cell = np.where(cell >= 0, cell, 0)
+    centre = raster.position.mean(axis=0)
+    size = max(float(np.ptp(raster.position, axis=0).max()), 1e-9)
+    arm = (raster.position[cell] - centre) / size
+    columns = np.concatenate([raster.normal[cell], np.cross(arm, raster.normal[cell])], axis=1)
+    reach = max(float(np.abs(layers.height).max()), 1e-6)
+    prior = 1e-3 * np.array([1 / reach**2] * 3 + [1 / (_TILT * size) ** 2] * 3) * len(cell)
+    offsets = np.linspace(-reach, reach, _STARTS)
+    residual = layers.height[None] - offsets[:, None]
+    products = (columns[:, :, None] * columns[:, None]).reshape(len(cell), -1)
+    motion = np.zeros((_STARTS, 6))
+    for gate in _START_GATES:
+        weight = tukey(residual, max(gate, _NOISE_CUT * layers.noise))
+        normal = (weight @ products).reshape(-1, 6, 6) + np.diag(prior)
+        motion = np.linalg.solve(normal, ((weight * layers.height) @ columns)[..., None])[..., 0]
+        residual = layers.height[None] - motion @ columns.T
+    explained = tukey(residual, max(_START_GATES[-1], _NOISE_CUT * layers.noise)).sum(axis=1)
+    offset = np.abs(motion @ columns.mean(axis=0))
+    best = motion[np.argmax(explained * (1 - 0.1 * offset / reach))]
+    return SmallMotion(best[:3], best[3:] / size, centre)
+
+
+def tukey(residual: Array, gate: float) -> Array:
+    """Tukey's weights (1 − (r / gate)²)² within the gate, 0 beyond it."""
+    share = np.minimum(np.square(residual / gate), 1.0)
+    return np.square(1 - share)
+
+
+def _blocks(raster: Raster, points: SurfaceCoordinates) -> tuple[Index, int]:
+    """Block of each point, and k: blocks have k × k cells, so that an occupied one holds about 16 points."""
+    i, j = points.x.astype(np.intp), points.y.astype(np.intp)
+    k = 1
+    while True:
+        columns = raster.shape[1] // k + 1
+        block = i // k * columns + j // k
+        occupied = np.count_nonzero(np.bincount(block))
+        if len(block) >= _POINTS_PER_BLOCK * occupied or k >= max(raster.shape) // 4:
+            return block, k
+        k += max(1, k // 2)
+
+
+def _noise(height: Array, first: Index, count: Index) -> float:
+    """Median over the blocks of the shortest interval that holds a third of a block's points, as a standard deviation."""
+    third = np.maximum(count // 3, 1)
+    group = np.repeat(np.arange(len(first)), count)
+    other = np.arange(len(height)) + third[group]
+    within = other < (first + count)[group]
+    width = np.where(within, height[np.minimum(other, len(height) - 1)] - height, np.inf)
+    shortest = np.minimum.reduceat(width, first)[count >= 6]
+    if not len(shortest):
+        return float(np.std(height))
+    return float(np.median(shortest)) / _THIRD_OF_NORMAL
