@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A seam with all that is known of it: its stations, the nominal ones, the offsets, the trust and the verdict."""
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..registration.splines import Array
+from .chains import Seam
+from .offsets import Offsets, nominal_stations, offsets
+from .settings import SeamSettings
+from .stations import Stations, stations
+from .trust import NO_REPORT, Trust, doubts
+from .weldment import Weldment
+
+
+@dataclass(frozen=True)
+class SeamLimits:
+    """What a seam may differ from the nominal, as absolute values.
+
+    Attributes
+    ----------
+    lateral, normal, longitudinal : offsets in mm
+    gap : between the parts in mm
+    opening, rotation : change of the opening angle, and rotation of the torch frame, in degrees
+    """
+
+    lateral: float = 1.0
+    normal: float = 1.0
+    longitudinal: float = 2.0
+    gap: float = 0.5
+    opening: float = 5.0
+    rotation: float = 5.0
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not (math.isfinite(value) and value >= 0.0):
+                raise InputError(f"the limit for {name} must be a number of at least 0, not {value:g}")
+
+
+@dataclass(frozen=True)
+class MeasuredSeam:
+    """One seam.
+
+    Attributes
+    ----------
+    stations : on the as-built model
+    nominal, offsets : the paired nominal stations and the differences; None without a nominal model
+    flags : (n,) "observed", "bridged", "carried" or "nominal"
+    bands : (n,) 95 % band in mm, NaN where unknown
+    """
+
+    stations: Stations
+    nominal: Stations | None
+    offsets: Offsets | None
+    flags: Array
+    bands: Array
+
+    @property
+    def name(self) -> str:
+        """The edges it runs along."""
+        return self.stations.seam.name
+
+    @property
+    def doubts(self) -> str | None:
+        """A sentence if a part of it was not observed; None without a registration report."""
+        return doubts(self.name, self.flags, self.stations.places.arc_length)
+
+    def largest(self) -> dict[str, float]:
+        """Largest absolute values by the names of the limits, in mm and degrees; only those that are known."""
+        found = {}
+        if self.offsets is not None:
+            found = {"lateral": self.offsets.lateral, "normal": self.offsets.normal,
+                     "longitudinal": self.offsets.longitudinal, "opening": np.degrees(self.offsets.opening_change),
+                     "rotation": np.degrees(self.offsets.rotation)}
+        if not np.isnan(self.stations.gap).all():
+            found["gap"] = self.stations.gap
+        return {name: float(np.nanmax(np.abs(values))) for name, values in found.items()}
+
+    def exceeded(self, limits: SeamLimits) -> list[str]:
+        """Names of the limits that the seam breaks somewhere; empty: it passes."""
+        allowed: Mapping[str, float] = vars(limits)
+        return [name for name, value in self.largest().items() if value > allowed[name]]
+
+
+def measure(as_built: Weldment, seam: Seam, settings: SeamSettings, nominal: Weldment | None = None,
+            trust: Trust = NO_REPORT) -> MeasuredSeam:
+    """Sample a seam and compare it with the nominal one."""
+    found = stations(as_built, seam, settings)
+    flags, bands = trust.along(found)
+    if nominal is None:
+        return MeasuredSeam(found, None, None, flags, bands)
+    before = nominal_stations(nominal, as_built, found, settings)
+    return MeasuredSeam(found, before, offsets(before, found), flags, bands)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The as-built seam against the nominal one, station by station.
+
+The topology is the same, so EdgeN is EdgeN; a station is paired with the nominal point at the same fraction of the edge's
+parameter range, which the rebuild keeps, or at the same share of its length where the ranges differ.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..registration.splines import Array
+from .frames import rotation_between
+from .sampling import Places, by_arc_length
+from .settings import SeamSettings
+from .stations import Stations, stations_at
+from .weldment import Weldment
+
+_SAME_RANGE = 1e-4
+
+
+@dataclass(frozen=True)
+class Offsets:
+    """How the as-built seam differs from the nominal, (n,) each, in the nominal's bisector frame.
+
+    Attributes
+    ----------
+    lateral : along y = z × x, in mm
+    normal : away from the joint, against the approach z, in mm
+    longitudinal : along the travel direction, in mm
+    opening_change : of the angle between the faces, in rad; positive where they open
+    rotation : angle between both bisector frames in rad
+    """
+
+    lateral: Array
+    normal: Array
+    longitudinal: Array
+    opening_change: Array
+    rotation: Array
+
+
+def check_pair(nominal: Weldment, as_built: Weldment) -> None:
+    """Refuse two models of which one is not the other, deformed (InputError)."""
+    a, b = nominal.topology, as_built.topology
+    for kind in ("faces", "edges", "vertices"):
+        if a.counts[kind] != b.counts[kind]:
+            raise InputError(f"the nominal model has {a.counts[kind]} {kind} and the as-built one {b.counts[kind]}: "
+                             "name the nominal model from which the as-built one was made")
+    if a.edge_faces != b.edge_faces:
+        raise InputError("the nominal and the as-built model are put together differently: name the nominal model from "
+                         "which the as-built one was made")
+
+
+def nominal_stations(nominal: Weldment, as_built: Weldment, stations: Stations, settings: SeamSettings) -> Stations:
+    """The nominal seam at the places that the as-built stations came from."""
+    places = stations.places
+    fraction = places.fraction.copy()
+    for number, stretch in enumerate(stations.seam.stretches):
+        here = places.stretch == number
+        fraction[here] = paired_fractions(as_built, nominal, stretch.edge, fraction[here])
+    return stations_at(nominal, stations.seam, Places(places.stretch, fraction, places.arc_length), settings)
+
+
+def paired_fractions(weldment: Weldment, other: Weldment, edge: int, fractions: Array) -> Array:
+    """Fractions of the same edge of another model that mark the same material points."""
+    here, there = (np.array(model.edges[edge].ParameterRange) for model in (weldment, other))
+    if np.abs(here - there).max() <= _SAME_RANGE * np.ptp(there):
+        return fractions
+    return by_arc_length(weldment, edge, other, fractions)
+
+
+def offsets(nominal: Stations, as_built: Stations) -> Offsets:
+    """Compare paired stations."""
+    x, y, z = (nominal.bisector[:, :, axis] for axis in range(3))
+    moved = as_built.positions - nominal.positions
+    lateral, normal, longitudinal = (np.einsum("ij,ij->i", moved, axis) for axis in (y, -z, x))
+    return Offsets(lateral, normal, longitudinal, as_built.opening - nominal.opening,
+                   rotation_between(nominal.bisector, as_built.bisector))

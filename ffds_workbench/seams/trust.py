@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the registration knows of a seam: observed or guessed, and its 95 % band. Read from the registration's report."""
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..registration.splines import Array
+from .chains import Stretch
+from .stations import Stations
+
+FLAGS = ("observed", "bridged", "carried", "nominal")
+"""From the best to the worst. Without a report everything is "nominal": nothing is known of a scan."""
+
+
+@dataclass(frozen=True)
+class _Entry:
+    flag: str
+    band: float
+
+
+@dataclass(frozen=True)
+class Trust:
+    """Flags and bands of faces and edges by name."""
+
+    entries: Mapping[str, _Entry]
+
+    def along(self, stations: Stations) -> tuple[Array, Array]:
+        """Flag (n,) and 95 % band in mm (n,) at each station; NaN where the report has none."""
+        known = [self._of(stretch) for stretch in stations.seam.stretches]
+        flags, bands = np.array([entry.flag for entry in known]), np.array([entry.band for entry in known])
+        return flags[stations.places.stretch], bands[stations.places.stretch]
+
+    def _of(self, stretch: Stretch) -> _Entry:
+        """The edge's own entry, or the worst of the faces that the weld joins."""
+        if stretch.name in self.entries:
+            return self.entries[stretch.name]
+        faces = [self.entries.get(f"Face{face + 1}", _Entry("nominal", math.nan)) for face in stretch.faces]
+        return _Entry(max((entry.flag for entry in faces), key=FLAGS.index), max(entry.band for entry in faces))
+
+
+NO_REPORT = Trust({})
+
+
+def read_trust(path: Path) -> Trust:
+    """Read the ``faces`` and ``edges`` of a registration's JSON report.
+
+    Raises
+    ------
+    InputError : the file is missing or no such report
+    """
+    try:
+        report = json.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise InputError(f"the report {path} cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        raise InputError(f"the report {path} is not JSON: name the file that register wrote with --report") from error
+    if not isinstance(report, dict) or not isinstance(report.get("faces"), list):
+        raise InputError(f"the report {path} has no faces: name the file that register wrote with --report")
+    try:
+        return Trust({str(item["name"]): _entry(item) for item in [*report["faces"], *report.get("edges", [])]})
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"the report {path} has a face or edge without a sound name, flag and band") from error
+
+
+def _entry(item: Mapping[str, object]) -> _Entry:
+    flag, band = str(item["flag"]), item.get("band")
+    if flag not in FLAGS:
+        raise ValueError(flag)
+    return _Entry(flag, math.nan if band is None else float(band))  # type: ignore[arg-type]
+
+
+def doubts(name: str, flags: Array, lengths: Array) -> str | None:
+    """A sentence if a part of a seam was not observed, from flags (n,) and arc lengths (n,)."""
+    unseen = flags != "observed"
+    if not unseen.any():
+        return None
+    worst = max(set(flags[unseen].tolist()), key=FLAGS.index)
+    if unseen.all():
+        return f"{name} was not observed by the scan ({worst} over all its length): check it before welding"
+    share = float((0.5 * (unseen[1:].astype(float) + unseen[:-1]) * np.diff(lengths)).sum() / lengths[-1])
+    return f"{name} was not observed by the scan over {share:.0%} of its length ({worst}): check it before welding"
