@@ -1,2 +1,4 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measurements that anyone can rerun: accuracy, topology, speed. Run them with ``./ffds benchmark``."""
+"""Measurements that anyone can rerun. ``./ffds benchmark NAME`` calls ``run(folder, progress)`` of the module NAME."""
+
+NAMES = ("accuracy", "topology", "speed")

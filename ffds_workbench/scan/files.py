@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from . import e57, pcd, ply, stl, text
 from .cloud import PointCloud
-
-MILLIMETRES = {"mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}
+from .units import MILLIMETRES
 
 _READERS: dict[str, Callable[[Path], NDArray[np.float64]]] = {
     ".ply": ply.read, ".pcd": pcd.read, ".stl": stl.read, ".e57": e57.read,

@@ -7,11 +7,10 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, RefusedError
 from .cloud import PointCloud
-from .files import MILLIMETRES
+from .units import MILLIMETRES, NAMES
 
 Array = NDArray[np.float64]
 
-_NAMES = {"mm": "millimetres", "cm": "centimetres", "in": "inches", "m": "metres"}
 _SMALLEST = 0.02
 """A scan smaller than this part of its model is suspected to be in another unit."""
 _LARGEST = 50.0
@@ -36,7 +35,7 @@ def check_overlap(scan: PointCloud, low: Array, high: Array) -> None:
     unit = _likely_unit(scan.unit, scan_size / size)
     if unit is not None:
         raise InputError(f"The scan measures {scan_size:.3g} mm and the model {size:.3g} mm: the scan seems to be in "
-                         f"{_NAMES[unit]}, not in {_NAMES[scan.unit]} (use --scan-unit {unit}).")
+                         f"{NAMES[unit]}, not in {NAMES[scan.unit]} (use --scan-unit {unit}).")
     if near > 0.0:
         raise RefusedError(f"The scan measures {scan_size:.3g} mm and the model {size:.3g} mm: they are not of the "
                            f"same part, or in other units.")

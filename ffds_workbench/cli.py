@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command line ``./ffds``: arguments in, `api` called, one line of error and an exit code out.
+
+Exit codes: 0 written, 2 bad usage or input, 3 refused or failed honestly, 130 interrupted.
+"""
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import re
+import signal
+import sys
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn, TextIO
+
+from . import RESOURCES, __version__
+from .benchmark import NAMES as BENCHMARKS
+from .errors import FfdsError, InputError, RefusedError
+from .scan.units import MILLIMETRES
+from .terminal import ProgressLine, quiet_libraries
+
+if TYPE_CHECKING:
+    from . import api
+
+FAILED, INTERRUPTED = 3, 130
+DEBUG = "FFDS_DEBUG"
+"""Set this variable to see the traceback of an internal error."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message} ({self.prog} --help lists what there is)")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; returns the exit code."""
+    try:
+        options = _parser().parse_args(arguments)
+    except InputError as error:
+        return _fail(sys.stderr, error)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with quiet_libraries() as (out, err):
+        progress = ProgressLine(err)
+        try:
+            code = _run(options, out, err, progress)
+            out.flush()
+        except BrokenPipeError:
+            code = FAILED
+        return code
+
+
+def _run(options: argparse.Namespace, out: TextIO, err: TextIO, progress: ProgressLine) -> int:
+    try:
+        text = options.run(options, progress)
+        progress.clear()
+        print(text, file=out)
+        return 0
+    except FfdsError as error:
+        progress.clear()
+        return _fail(err, error)
+    except KeyboardInterrupt:
+        progress.clear()
+        print("ffds: Interrupted, nothing was written.", file=err)
+        return INTERRUPTED
+    except MemoryError:
+        progress.clear()
+        return _fail(err, RefusedError("There is not enough memory for this job."))
+    except Exception as error:  # noqa: BLE001 (the user gets one line; developers set FFDS_DEBUG)
+        progress.clear()
+        if os.environ.get(DEBUG):
+            traceback.print_exc(file=err)
+        detail = " ".join(str(error).split())[:200]
+        return _fail(err, RefusedError(f"Internal error, nothing was written ({type(error).__name__}: {detail})."))
+
+
+def _fail(stream: TextIO, error: FfdsError) -> int:
+    print("ffds: " + " ".join(str(error).split()), file=stream)
+    return error.exit_code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="ffds", description="As-built CAD models from scans: surface-based free-form deformation.",
+                     epilog="'ffds setup' installs what is needed and runs the example; 'ffds test' runs the tests.")
+    parser.add_argument("--version", action="version", version=f"FFDS {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
+    _add_register(commands)
+    _add_deviation(commands)
+    _add_demo(commands)
+    _add_benchmark(commands)
+    return parser
+
+
+def _add_inputs(command: argparse.ArgumentParser) -> None:
+    command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
+    command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
+                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 or .stl; several of one part are fused")
+    command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
+    command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
+
+
+def _add_register(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("register", help="deform the model to the scan and write the as-built model")
+    _add_inputs(command)
+    command.add_argument("--out", type=Path, required=True, help="as-built model: .step, .brep or .FCStd")
+    command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
+    command.add_argument("--picture", type=Path, metavar="OUT.png", help="the deviation before and after")
+    command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
+                         help="faces to deform (default: every face that the scan observes)")
+    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
+                         help="faces that must not move")
+    command.add_argument("--method", choices=["robust", "ffds"], default="robust", help="default: robust")
+    command.add_argument("--lattice", type=_lattice, default="auto", metavar="NIxNJ",
+                         help="control points per face, for instance 10x10 (default: auto)")
+    command.add_argument("--source-points", type=_count, default=400, metavar="N",
+                         help="source points per face of method ffds (default: 400)")
+    command.set_defaults(run=register)
+
+
+def _add_deviation(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("deviation", help="measure the scan's distance from the model")
+    _add_inputs(command)
+    command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
+    command.add_argument("--picture", type=Path, metavar="OUT.png", help="the scan, coloured by its deviation")
+    command.set_defaults(run=deviation)
+
+
+def _add_demo(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("demo", help="run the main job on the bundled example")
+    command.add_argument("--out", type=Path, default=Path("out/demo"), metavar="DIR", help="default: out/demo")
+    command.set_defaults(run=demo)
+
+
+def _add_benchmark(commands: argparse._SubParsersAction) -> None:
+    command = commands.add_parser("benchmark", help="measure accuracy, speed or topology anew")
+    command.add_argument("name", choices=BENCHMARKS, metavar="|".join(BENCHMARKS))
+    command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for tables and pictures")
+    command.set_defaults(run=benchmark)
+
+
+def _lattice(text: str) -> tuple[int, int] | str:
+    if text == "auto":
+        return text
+    match = re.fullmatch(r"(\d+)[xX×](\d+)", text)
+    if match is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is no lattice: write NIxNJ, for instance 10x10, or auto")
+    return int(match[1]), int(match[2])
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 16:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of source points: 16 are the least")
+    return int(text)
+
+
+def register(options: argparse.Namespace, progress: ProgressLine) -> str:
+    """``ffds register``: the table to print."""
+    from . import api
+
+    inputs = [options.model, *options.scan]
+    api.check_outputs((options.out, options.report, options.picture), inputs)
+    api.files.check_output(options.out)
+    model, scan = _read(api, options, progress)
+    result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
+                          options.source_points, progress)
+    progress(f"Writing {options.out}")
+    api.write(result, options.out, options.report, options.picture, inputs)
+    return f"{result.table()}\n\n{_written(options.out, options.report, options.picture)}"
+
+
+def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
+    """``ffds deviation``: the table to print."""
+    from . import api
+
+    inputs = [options.model, *options.scan]
+    api.check_outputs((options.report, options.picture), inputs)
+    model, scan = _read(api, options, progress)
+    result = api.deviation(model, scan, progress)
+    api.write_deviation(result, options.report, options.picture, inputs)
+    written = _written(options.report, options.picture)
+    return result.table() + (f"\n\n{written}" if written else "")
+
+
+def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
+    """``ffds demo``: the main job on the example, with everything it can write."""
+    from . import api
+
+    folder = _folder(options.out)
+    out, report, picture = folder / "bracket_as_built.step", folder / "report.json", folder / "deviation.png"
+    example = RESOURCES / "examples"
+    progress("Reading the example")
+    model = api.read_model(example / "bracket.step")
+    scan = api.read_scan(example / "bracket_scan.ply")
+    result = api.register(model, scan, progress=progress)
+    progress(f"Writing {folder}")
+    api.write(result, out, report, picture)
+    return f"{result.table()}\n\n{_written(out, report, picture)}"
+
+
+def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
+    """``ffds benchmark``: run one and say where its tables are."""
+    from . import _freecad
+
+    _freecad.activate()
+    folder = _folder(options.out)
+    text = importlib.import_module(f"ffds_workbench.benchmark.{options.name}").run(folder, progress)
+    return f"{text or ''}\n\nWritten: {folder}".strip()
+
+
+def _read(api_module: api, options: argparse.Namespace, progress: ProgressLine) -> tuple[api.Model, api.PointCloud]:
+    progress(f"Reading {options.model}")
+    model = api_module.read_model(options.model, options.object)
+    progress(f"Reading {', '.join(str(path) for path in options.scan)}")
+    return model, api_module.read_scan(options.scan, options.scan_unit)
+
+
+def _folder(path: Path) -> Path:
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"The output folder {path} cannot be made: {error.strerror}.") from error
+    return path
+
+
+def _written(*paths: Path | None) -> str:
+    names = [str(path) for path in paths if path is not None]
+    return f"Written: {', '.join(names)}" if names else ""
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        print("ffds: Interrupted, nothing was written.", file=sys.stderr)
+        sys.exit(INTERRUPTED)

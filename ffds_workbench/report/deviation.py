@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Signed distances from scan points to the faces they belong to, by foot points on the surfaces themselves."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..registration.face import FaceGeometry
+from ..registration.footpoints import surface_coordinates
+from ..registration.raster import Raster, make_raster
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+REACH = 10.0
+"""A scan point farther than this (mm) from every face belongs to none …"""
+_RELATIVE_REACH = 0.1
+"""… nor one farther than this part of the model's diagonal."""
+
+
+@dataclass(frozen=True)
+class FaceDeviation:
+    """The scan points of one face.
+
+    Attributes
+    ----------
+    name : "Face6"
+    points : (k,) indices into the scan
+    deviations : (k,) signed, in mm, positive out of the material
+    normals : (k, 3) outward normals of the face below the points
+    """
+
+    name: str
+    points: Index
+    deviations: Array
+    normals: Array
+
+
+def reach_of(diagonal: float) -> float:
+    """How far from the faces of a model with this diagonal (mm) its scan points are looked for."""
+    return min(REACH, _RELATIVE_REACH * diagonal)
+
+
+def measure(faces: Sequence[FaceGeometry], points: Array, reach: float) -> list[FaceDeviation]:
+    """Give each scan point to the nearest face that has a foot point for it inside its trims.
+
+    Parameters
+    ----------
+    faces : candidates
+    points : (n, 3) in mm
+    reach : largest distance in mm
+
+    Returns
+    -------
+    One entry per face, in the same order; a point is in at most one of them.
+    """
+    owner = np.full(len(points), -1, dtype=np.intp)
+    height = np.full(len(points), np.inf)
+    normal = np.zeros((len(points), 3))
+    for number, face in enumerate(faces):
+        index, heights, normals = _over_face(make_raster(face), points, reach)
+        nearer = np.abs(heights) < np.abs(height[index])
+        index = index[nearer]
+        owner[index], height[index], normal[index] = number, heights[nearer], normals[nearer]
+    found = []
+    for number, face in enumerate(faces):
+        index = np.flatnonzero(owner == number)
+        found.append(FaceDeviation(face.name, index, height[index], normal[index]))
+    return found
+
+
+def measure_again(face: FaceGeometry, points: Array, earlier: FaceDeviation, reach: float) -> FaceDeviation:
+    """Deviations of the points that ``earlier`` gives to a face from another state of that face.
+
+    Points without a foot point on this state are left out.
+    """
+    index, heights, normals = _over_face(make_raster(face), points[earlier.points], reach, trimmed=False)
+    return FaceDeviation(earlier.name, earlier.points[index], heights, normals)
+
+
+def _over_face(raster: Raster, points: Array, reach: float, trimmed: bool = True) -> tuple[Index, Array, Array]:
+    found = surface_coordinates(raster, points, reach)
+    cell = raster.cell(found.x, found.y)
+    kept = cell >= 0
+    if trimmed:
+        kept &= raster.inside[cell]
+    return found.index[kept], found.height[kept], raster.normal[cell[kept]]

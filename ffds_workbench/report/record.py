@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The JSON report: plain dictionaries of what a job found, lengths in mm."""
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..registration.result import FaceRegistration
+from ..scan.cloud import PointCloud
+from .deviation import FaceDeviation
+from .statistics import statistics
+
+Record = dict[str, Any]
+
+
+def scan_record(scan: PointCloud, noise: float | None) -> Record:
+    """The report's ``scan`` block."""
+    return {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit}
+
+
+def figures(deviations: np.ndarray) -> Record | None:
+    """A block of deviation figures, or None without points."""
+    found = statistics(deviations)
+    return None if found is None else found.as_dict()
+
+
+def all_figures(faces: Sequence[FaceDeviation]) -> Record | None:
+    """The figures of all faces together."""
+    return figures(np.concatenate([np.empty(0), *(face.deviations for face in faces)]))
+
+
+def face_records(names: Sequence[str], moved: Sequence[str], registrations: Sequence[FaceRegistration],
+                 before: Sequence[FaceDeviation], after: Sequence[FaceDeviation]) -> list[Record]:
+    """The report's ``faces`` of a registration, in the model's order.
+
+    The flag says where the face's shape comes from: ``observed`` by the scan, ``carried`` along with its neighbours, or
+    ``nominal``.
+    """
+    registered = {item.name: item for item in registrations}
+    deviation = {item.name: (item, other) for item, other in zip(before, after, strict=True)}
+    records = []
+    for name in names:
+        entry = registered.get(name)
+        flag = "observed" if entry else "carried" if name in moved else "nominal"
+        first, second = deviation.get(name, (None, None))
+        records.append({
+            "name": name, "lattice": list(entry.lattice) if entry else None, "points": entry.points if entry else 0,
+            "coverage": entry.coverage if entry else 0.0, "flag": flag, "band": None,
+            "deviation_before": figures(first.deviations) if first else None,
+            "deviation_after": figures(second.deviations) if second else None})
+    return records
+
+
+def edge_records(edge_faces: Sequence[Sequence[str]], moved: Sequence[str], observed: Sequence[str]) -> list[Record]:
+    """The report's ``edges``: ``observed`` if all faces of the edge are, ``carried`` if one of them moves."""
+    records = []
+    for number, faces in enumerate(edge_faces, 1):
+        if faces and set(faces) <= set(observed):
+            flag = "observed"
+        else:
+            flag = "carried" if set(faces) & (set(moved) | set(observed)) else "nominal"
+        records.append({"name": f"Edge{number}", "flag": flag, "band": None})
+    return records
+
+
+def write(record: Mapping[str, Any], path: Path) -> None:
+    """Write a report as JSON text."""
+    path.write_text(json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
