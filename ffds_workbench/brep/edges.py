@@ -14,9 +14,11 @@ from .pcurves import Pcurve
 
 _GAP_SAMPLES = 257
 _GAP_SAMPLES_PER_SPAN = 4
-_KINK = 1e-4
-"""Relative change of the derivative at a knot from which on the curve counts as kinked there."""
+_KINK = 0.05
+"""Relative change of the derivative at a knot from which on the curve counts as kinked; pcurves that intersection
+algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off."""
 _KINK_STEP = 1e-5
+_SAME_BREAK = 1e-6
 
 
 @dataclass(frozen=True)
@@ -74,13 +76,16 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
 
 
 def _without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: float) -> Array:
-    """Breaks of multiplicity three reduced to two where the tangent of ``f`` does not turn.
+    """Breaks of multiplicity three reduced to two where ``f`` has no kink to speak of.
 
-    Knots may allow a kink that is not there; a C0 knot would make OCCT's Boolean check object to the edge.
+    OCCT's Boolean check objects to an edge with a C0 knot.
     """
     if not len(breaks):
         return breaks
-    distinct, count = np.unique(breaks, return_counts=True)
+    # The traces' breaks may be one and the same but for rounding.
+    breaks = np.sort(breaks)
+    start = np.flatnonzero(np.diff(breaks, prepend=-np.inf) > _SAME_BREAK * length)
+    distinct, count = breaks[start], np.diff(start, append=len(breaks))
     step = _KINK_STEP * length
     at = distinct[:, None] + step * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
     points = f(at.ravel()).reshape(len(distinct), 5, -1)
