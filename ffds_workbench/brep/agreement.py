@@ -24,7 +24,26 @@ _GENTLE = 10.0
 """A correction fades over at least this multiple of itself …"""
 _SPREAD = 0.25
 """… and over this part of the face's size."""
-_MOST_CENTRES = 250
+_MOST_CENTRES = 500
+_EVEN = 1e-8
+"""Sides of a seam, or directions at a pole, that differ by more than this (mm) tear the face."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """One edited face along its edges.
+
+    Attributes
+    ----------
+    rows : (m,) samples of its edges
+    own : (m, 3) its own displacement there in mm; on a seam the mean of both sides, at a pole of all of it
+    torn : (m,) whether the face disagrees with itself there: a pole that moves unevenly, a seam of a displacement that
+        is not periodic
+    """
+
+    rows: NDArray[np.intp]
+    own: Array
+    torn: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -35,12 +54,12 @@ class Rim:
     ----------
     samples : points along all edges of the edited faces
     displacement : (n, 3) what the faces agree on, in mm
-    corrections : for each edited face, ``(samples of its edges (m,), agreed minus its own displacement (m, 3))``
+    sides : for each edited face, its own displacement along its edges
     """
 
     samples: EdgeSamples
     displacement: Array
-    corrections: dict[int, tuple[NDArray[np.intp], Array]]
+    sides: dict[int, Side]
 
 
 def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spacing: Mapping[int, float]) -> Rim:
@@ -59,52 +78,53 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
             finest[edge] = min(finest.get(edge, np.inf), spacing[face])
     samples = join(along_edge(workpiece, edge, lambda points, s=step: np.full(len(points), s))
                    for edge, step in sorted(finest.items()))
-    own = {face: _along_own_edges(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
-    agreed = _means(samples, own)
-    _close_at_vertices(workpiece, samples, own, agreed)
-    corrections = {face: (rows, agreed[rows] - values) for face, (rows, values) in own.items()}
-    return Rim(samples, agreed, corrections)
+    sides = {face: _side(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
+    agreed = _means(samples, sides)
+    _close_at_vertices(workpiece, samples, sides, agreed)
+    return Rim(samples, agreed, sides)
 
 
-def _along_own_edges(workpiece: Workpiece, face: int, displacement: SplineSurface,
-                     samples: EdgeSamples) -> tuple[NDArray[np.intp], Array]:
-    """A face's own displacement at the samples of its edges; on a seam the mean of both sides, at a pole of all of it."""
-    rows, parameters = [], []
+def _side(workpiece: Workpiece, face: int, displacement: SplineSurface, samples: EdgeSamples) -> Side:
+    rows, parameters, on_seam = [], [], []
+    periodic = displacement.periodic_u or displacement.periodic_v
     for edge in workpiece.topology.face_edges[face]:
         at = np.flatnonzero(samples.edges == edge)
         pole = workpiece.topology.degenerate[edge]
         fractions = np.linspace(0.0, 1.0, 17) if pole else samples.fractions[at]
+        seam = (face, edge) in workpiece.topology.seams and not pole and not periodic
         for trace in edge_traces(workpiece.faces[face].face, workpiece.edges[edge], fractions):
             rows.append(np.repeat(at, len(fractions)) if pole else at)
             parameters.append(trace.uv)
-    row = np.concatenate(rows)
-    unique, inverse, count = np.unique(row, return_inverse=True, return_counts=True)
-    total = np.zeros((len(unique), 3))
-    np.add.at(total, inverse, displacement(np.concatenate(parameters)))
-    return unique, total / count[:, None]
+            on_seam.append(np.full(len(fractions), seam))
+    values = displacement(np.concatenate(parameters))
+    unique, inverse, count = np.unique(np.concatenate(rows), return_inverse=True, return_counts=True)
+    mean = np.zeros((len(unique), 3))
+    np.add.at(mean, inverse, values)
+    mean /= count[:, None]
+    torn = np.concatenate(on_seam) | (np.linalg.norm(values - mean[inverse], axis=1) > _EVEN)
+    return Side(unique, mean, np.bincount(inverse, torn) > 0)
 
 
-def _means(samples: EdgeSamples, own: Mapping[int, tuple[NDArray[np.intp], Array]]) -> Array:
+def _means(samples: EdgeSamples, sides: Mapping[int, Side]) -> Array:
     total, count = np.zeros((len(samples.points), 3)), np.zeros(len(samples.points))
-    for rows, values in own.values():
-        total[rows] += values
-        count[rows] += 1
+    for side in sides.values():
+        total[side.rows] += side.own
+        count[side.rows] += 1
     return total / count[:, None]
 
 
-def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, own: Mapping[int, tuple[NDArray[np.intp], Array]],
-                       agreed: Array) -> None:
+def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mapping[int, Side], agreed: Array) -> None:
     """Shift the agreed displacement along each edge, linearly, so that edges meet in their vertices; in place."""
     ends = _ends(workpiece, samples)
     by_row = defaultdict(list)
     for row, vertex in ends:
         by_row[row].append(vertex)
     at_vertex: dict[int, list[Array]] = defaultdict(list)
-    for rows, values in own.values():
+    for side in sides.values():
         here: dict[int, list[Array]] = defaultdict(list)
-        for row, value in zip(rows, values, strict=True):
-            for vertex in by_row.get(row, ()):
-                here[vertex].append(value)
+        for k in np.flatnonzero(np.isin(side.rows, list(by_row))):
+            for vertex in by_row[side.rows[k]]:
+                here[vertex].append(side.own[k])
         for vertex, found in here.items():
             at_vertex[vertex].append(np.mean(found, axis=0))
     offsets = {row: np.mean(at_vertex[vertex], axis=0) - agreed[row] for row, vertex in ends}
@@ -138,9 +158,10 @@ def spread(rim: Rim, face: int, size: float, tolerance: float) -> RadialField | 
     size : the face's size in mm
     tolerance : what counts as agreement, in mm
     """
-    rows, correction = rim.corrections[face]
+    side = rim.sides[face]
+    correction = rim.displacement[side.rows] - side.own
     largest = np.linalg.norm(correction, axis=1).max()
     if largest <= tolerance:
         return None
-    return interpolate(rim.samples.points[rows], correction, np.full(len(rows), tolerance),
+    return interpolate(rim.samples.points[side.rows], correction, np.full(len(side.rows), tolerance),
                        max(_GENTLE * largest, _SPREAD * size), _MOST_CENTRES)

@@ -3,9 +3,10 @@
 
 ``D(x) = χ(x) Φ(x)``. Φ is smooth and takes the displacement of the edited faces along their edges and, more loosely,
 inside; χ is 0 along the edges of the faces that stay, 1 on the edited faces. Faces around the edited ones move by D;
-an edited face moves by its own registered displacement, which passes into D in a narrow rim along its edges. So two
-faces that share an edge, a seam or a pole move alike there by construction. This module decides which faces adapt and
-puts the pieces together; the rebuild makes surfaces of them.
+an edited face moves by exactly its own registered displacement, which D equals along its edges to 1e-5 mm. Where a
+displacement is too rough for that, or disagrees with itself at a seam or a pole, it passes into D in a rim. So faces
+that share an edge, a seam or a pole move alike there. This module puts the pieces together; the rebuild makes surfaces
+of them.
 """
 from __future__ import annotations
 
@@ -13,6 +14,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..errors import InputError, RefusedError
@@ -25,14 +27,16 @@ from .samples import FaceSamples, on_face, side_lengths
 from .stay import held_edges
 from .workpiece import Workpiece, WorkpieceFace
 
-_RIM = 0.08
-"""Width of the rim of an edited face, where its own displacement passes into the field, over the face's size."""
-_FIDELITY = 1e-3
-"""Largest distance of the field from the registered displacement along edges, over the largest displacement …"""
-_FIDELITY_RANGE = 1e-4, 2e-3
-"""… but between these, in mm."""
-_FIDELITY_INSIDE = 20.0
-"""Inside an edited face the field only serves what lies behind it, and may be this much farther off."""
+_SAMPLE = 0.004
+"""Distance of samples on the edges of an edited face over the face's size."""
+_FIDELITY = 1e-5
+"""Largest distance in mm of the field from the registered displacement along the edges."""
+_FIDELITY_INSIDE = 0.02
+"""The same inside an edited face, over the largest displacement: there it only serves what lies behind the face."""
+_CLOSE = 4e-5
+"""An edited face that is farther than this from the field along its edges, in mm, passes into it in a rim …"""
+_RIM = 0.08, 5.0
+"""… that is so much of the face's size wide, and at least so many times the distance."""
 _SUPPORT = 0.6, 5.0
 """Support of the field: so much of the largest edited face's size plus so many times the largest displacement."""
 _LINES_PER_SUPPORT = 4.0
@@ -61,29 +65,30 @@ class LocalField:
 
 @dataclass(frozen=True)
 class EditedFace:
-    """The displacement of an edited face: its own, corrected, held where χ holds it, and D along its edges.
+    """The displacement of an edited face: its own, corrected, and held where χ holds it.
 
     Attributes
     ----------
-    own : registered displacement over the face's (u, v)
-    correction : what makes it agree with its edited neighbours, or None
-    rim : factor that is 0 along the face's edges and 1 inside
+    own : d, registered displacement over the face's (u, v)
+    correction : c, what makes it agree with its edited neighbours, or None
+    rim : ρ, 0 along the edges where d + c is not close to the field, 1 away from them; None where it is close everywhere
     field : D
     """
 
     own: SplineSurface
     correction: RadialField | None
-    rim: Cutoff
+    rim: Cutoff | None
     field: LocalField
 
     def __call__(self, uv: Array, points: Array) -> Array:
-        """χ (d + c + (1 − rim) (Φ − d − c))"""
+        """χ (d + c + (1 − ρ) (Φ − d − c)), (n, 3) in mm"""
         displacement = self.own(uv)
         if self.correction is not None:
             displacement += self.correction(points)
-        towards = 1.0 - self.rim(points)
-        near = np.flatnonzero(towards)
-        displacement[near] += towards[near, None] * (self.field.smooth(points[near]) - displacement[near])
+        if self.rim is not None:
+            towards = 1.0 - self.rim(points)
+            near = np.flatnonzero(towards)
+            displacement[near] += towards[near, None] * (self.field.smooth(points[near]) - displacement[near])
         return displacement * self.field.cutoff(points)[:, None]
 
 
@@ -114,24 +119,18 @@ def local_displacements(workpiece: Workpiece, face_displacements: Mapping[int, S
         return {}
     samples = {face: on_face(workpiece.faces[face], _spans(d)) for face, d in face_displacements.items()}
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in face_displacements}
-    rim = agree(workpiece, face_displacements, {face: SPACING * _RIM * size for face, size in sizes.items()})
-    largest = float(np.linalg.norm(rim.displacement, axis=1).max())
-    largest = max([largest, *(_largest(d) for d in face_displacements.values())])
-    fidelity = float(np.clip(_FIDELITY * largest, *_FIDELITY_RANGE))
-    corrections = {face: spread(rim, face, sizes[face], fidelity) for face in face_displacements}
+    rim = agree(workpiece, face_displacements, {face: _SAMPLE * size for face, size in sizes.items()})
+    largest = max(_largest(displacement) for displacement in face_displacements.values())
+    corrections = {face: spread(rim, face, sizes[face], _FIDELITY) for face in face_displacements}
     support = _SUPPORT[0] * max(sizes.values()) + _SUPPORT[1] * largest
-    smooth = _smooth_field(face_displacements, samples, sizes, rim, corrections, fidelity, support)
-
+    smooth, blends = _smooth_field(workpiece, face_displacements, samples, rim, corrections, sizes, largest, support)
     edited_points = np.concatenate([rim.samples.points, *(s.points for s in samples.values())])
     held = held_edges(workpiece, frozenset(face_displacements), frozen, smooth, cKDTree(edited_points),
                       max(sizes.values()))
     field = LocalField(smooth, held.cutoff)
     result = {}
     for face, displacement in face_displacements.items():
-        rows = rim.corrections[face][0]
-        own_rim = rim.samples.take(rows)
-        factor = Cutoff(own_rim.points, own_rim.lengths, np.maximum(_RIM * sizes[face], own_rim.lengths / SPACING))
-        edited = EditedFace(displacement, corrections[face], factor, field)
+        edited = EditedFace(displacement, corrections[face], blends.get(face), field)
         result[face] = FaceDisplacement(edited, *_lines_of_edit(workpiece.faces[face], displacement))
     for face in held.adapting:
         lines = _lines_of_field(workpiece.faces[face], field)
@@ -160,12 +159,15 @@ def _largest(displacement: SplineSurface) -> float:
                                 axis=2).max())
 
 
-def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[int, FaceSamples],
-                  sizes: Mapping[int, float], rim: Rim, corrections: Mapping[int, RadialField | None], fidelity: float,
-                  support: float) -> RadialField:
-    """Φ, through the agreed displacement of the rims and the corrected displacement inside."""
+def _smooth_field(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], samples: Mapping[int, FaceSamples],
+                  rim: Rim, corrections: Mapping[int, RadialField | None], sizes: Mapping[int, float], largest: float,
+                  support: float) -> tuple[RadialField, dict[int, Cutoff]]:
+    """Φ, and where edited faces have to pass into it.
+
+    Φ goes through the agreed displacement of the edges and the corrected displacement inside: loosely, but closely
+    along the edges of faces that follow it, and along all edges if an edited face passes into it.
+    """
     points, values = [rim.samples.points], [rim.displacement]
-    tolerances = [np.full(len(rim.displacement), fidelity)]
     for face, displacement in displacements.items():
         coarse = samples[face].coarse
         inner = samples[face].points[coarse]
@@ -173,11 +175,47 @@ def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[i
         correction = corrections[face]
         points.append(inner)
         values.append(value if correction is None else value + correction(inner))
-        own_rim = cKDTree(rim.samples.points[rim.corrections[face][0]])
-        in_rim = own_rim.query(inner)[0] < _RIM * sizes[face]
-        tolerances.append(np.where(in_rim, fidelity, _FIDELITY_INSIDE * fidelity))
-    return interpolate(np.concatenate(points), np.concatenate(values), np.concatenate(tolerances), support,
-                       most=min(1500, 450 + 150 * len(displacements)))
+    edges = len(rim.displacement)
+    tolerances = np.full(sum(map(len, points)), _FIDELITY_INSIDE * largest)
+    followed = [edge for edge in np.unique(rim.samples.edges)
+                if not displacements.keys() >= set(workpiece.topology.edge_faces[edge])]
+    close = np.isin(rim.samples.edges, followed)
+    far = {face: _far(rim, face, corrections[face], rim.displacement) for face in displacements}
+    while True:
+        if any(where.any() for where in far.values()):
+            close[:] = True
+        tolerances[:edges][close] = _FIDELITY
+        smooth = interpolate(np.concatenate(points), np.concatenate(values), tolerances, support,
+                             most=min(1500, 600 + 150 * len(displacements)))
+        on_rim = np.where(close[:, None], smooth(rim.samples.points), rim.displacement)
+        far = {face: _far(rim, face, corrections[face], on_rim) for face in displacements}
+        if close.all() or not any(where.any() for where in far.values()):
+            return smooth, {face: _blend(rim, face, where, corrections[face], smooth, sizes[face])
+                            for face, where in far.items() if where.any()}
+
+
+def _own_along_rim(rim: Rim, face: int, correction: RadialField | None) -> Array:
+    """d + c at the samples of the face's edges, (m, 3) in mm."""
+    side = rim.sides[face]
+    return side.own if correction is None else side.own + correction(rim.samples.points[side.rows])
+
+
+def _far(rim: Rim, face: int, correction: RadialField | None, wanted: Array) -> NDArray[np.bool_]:
+    """Samples of the face's edges where its own displacement is torn, or not close to what is wanted on the rim; (m,)."""
+    side = rim.sides[face]
+    distance = np.linalg.norm(wanted[side.rows] - _own_along_rim(rim, face, correction), axis=1)
+    return side.torn | (distance > _CLOSE)
+
+
+def _blend(rim: Rim, face: int, far: NDArray[np.bool_], correction: RadialField | None, smooth: RadialField,
+           size: float) -> Cutoff:
+    """The rim of an edited face that passes into the field: along the edges where it is far from it."""
+    rows = rim.sides[face].rows
+    distance = np.linalg.norm(smooth(rim.samples.points[rows]) - _own_along_rim(rim, face, correction), axis=1)
+    edges = rim.samples.edges[rows]
+    samples = rim.samples.take(rows[np.isin(edges, edges[far])])
+    reach = max(_RIM[0] * size, _RIM[1] * float(distance.max()))
+    return Cutoff(samples.points, samples.lengths, np.maximum(reach, samples.lengths / SPACING))
 
 
 def _lines_of_edit(face: WorkpieceFace, displacement: SplineSurface) -> tuple[Array, Array]:

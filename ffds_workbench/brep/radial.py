@@ -16,7 +16,7 @@ from scipy.spatial.distance import cdist
 from ..registration.splines import Array
 
 _FIRST_CENTRES = 40
-_RIDGE = 1e-10
+_RIDGE = 1e-13
 _BLOCK = 60_000
 """Kernel values at a time: small enough to stay in the processor's cache."""
 
@@ -80,33 +80,42 @@ def interpolate(points: Array, values: Array, tolerances: Array, support: float,
     support : support of the basis functions in mm
     most : largest number of centres; the tolerances are given up for it
     """
-    chosen = _spread(points, np.ones(len(points), dtype=bool), np.empty(0, dtype=np.intp), min(_FIRST_CENTRES, most))
-    kernel = wendland(cdist(points, points[chosen]) / support)
+    kernel = np.empty((min(most, len(points)), len(points)))
+    spread = _Spread(points)
+    chosen = spread.pick(np.ones(len(points), dtype=bool), min(_FIRST_CENTRES, most))
+    kernel[:len(chosen)] = wendland(cdist(points[chosen], points) / support)
     while True:
-        matrix = kernel[chosen]
+        known = kernel[:len(chosen)]
+        matrix = known[:, chosen]
         matrix[np.diag_indices(len(chosen))] += _RIDGE
         coefficients = cho_solve(cho_factor(matrix, lower=True), values[chosen])
-        missed = np.linalg.norm(kernel @ coefficients - values, axis=1) > tolerances
-        more = _spread(points, missed, chosen, min(len(chosen), most - len(chosen)))
+        missed = np.linalg.norm(known.T @ coefficients - values, axis=1) > tolerances
+        more = spread.pick(missed, min(len(chosen), most - len(chosen)))
         if len(more) == 0:
             return RadialField(points[chosen], coefficients, support)
+        kernel[len(chosen):len(chosen) + len(more)] = wendland(cdist(points[more], points) / support)
         chosen = np.concatenate([chosen, more])
-        kernel = np.concatenate([kernel, wendland(cdist(points, points[more]) / support)], axis=1)
 
 
-def _spread(points: Array, eligible: NDArray[np.bool_], chosen: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """At most ``count`` eligible points, each as far as possible from all chosen before it; coincident ones once."""
-    scale = np.ptp(points, axis=0).max()
-    if len(chosen):
-        distance = cdist(points, points[chosen], "sqeuclidean").min(axis=1)
-    else:
-        distance = np.full(len(points), (10.0 * scale) ** 2 + 1.0)
-    distance[~eligible] = 0.0
-    picked: list[int] = []
-    for _ in range(count):
-        k = int(distance.argmax())
-        if distance[k] <= (1e-4 * scale) ** 2:
-            break
-        picked.append(k)
-        np.minimum(distance, ((points - points[k]) ** 2).sum(axis=1), out=distance)
-    return np.array(picked, dtype=np.intp)
+class _Spread:
+    """Picks points one after the other, each as far as possible from all picked before; coincident ones once."""
+
+    def __init__(self, points: Array) -> None:
+        self._points = points - points.mean(axis=0)
+        self._squares = (self._points**2).sum(axis=1)
+        self._distance = np.full(len(points), np.inf)
+        self._least = 1e-8 * max(float(self._squares.max()), 1e-12)
+
+    def pick(self, eligible: NDArray[np.bool_], count: int) -> NDArray[np.intp]:
+        """At most ``count`` of the eligible points."""
+        distance = np.where(eligible, self._distance, 0.0)
+        picked: list[int] = []
+        for _ in range(count):
+            k = int(distance.argmax())
+            if distance[k] <= self._least:
+                break
+            picked.append(k)
+            squared = self._squares + (self._squares[k] - 2.0 * (self._points @ self._points[k]))
+            np.minimum(self._distance, squared, out=self._distance)
+            np.minimum(distance, squared, out=distance)
+        return np.array(picked, dtype=np.intp)
