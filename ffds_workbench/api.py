@@ -16,6 +16,7 @@ Models are files, shapes or document objects alike; objects are taken where they
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -38,9 +39,10 @@ from .errors import FfdsError, InputError, RefusedError  # noqa: E402
 from .output import check_writable, replacing  # noqa: E402
 from .registration.ffds import register_ffds  # noqa: E402
 from .registration.result import FaceRegistration  # noqa: E402
+from .registration.robust import register_robust  # noqa: E402
 from .report import picture as drawing  # noqa: E402
 from .report import record, table  # noqa: E402
-from .report.certificate import Certificate, certify  # noqa: E402
+from .report.certificate import Certificate, boolean_checks, certify  # noqa: E402
 from .report.deviation import FaceDeviation, measure, measure_again, reach_of  # noqa: E402
 from .report.stopwatch import Stopwatch  # noqa: E402
 from .scan import files as scan_files  # noqa: E402
@@ -54,8 +56,9 @@ METHODS = ("robust", "ffds")
 Progress = Callable[[str], None]
 Lattice = tuple[int, int] | str
 
-BOOLEAN_CHECK_SECONDS = 10.0
-"""How long the check for Boolean operations may take before the certificate goes without it."""
+BOOLEAN_CHECK_SECONDS = 4.0
+"""How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
+without it: it can take minutes."""
 _PAPER_LATTICE = (10, 10)
 
 
@@ -153,11 +156,15 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
         moving = {index: item.displacement for index, item in registrations.items()}
         displacements = local_displacements(part, moving, frozen)
         shape = rebuild(part, displacements)
-    with watch.stage("certify", "Checking the topology"):
-        certificate = certify(nominal.shape, shape, BOOLEAN_CHECK_SECONDS)
-        certificate.enforce()
-    with watch.stage("deviation", "Measuring the deviation"):
-        before, after = _compare(part, workpiece.read(shape), list(registrations), cloud, nominal.shape)
+    with ThreadPoolExecutor(1) as background:
+        checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
+        with watch.stage("certify", "Checking the topology"):
+            certificate = certify(nominal.shape, shape, None)
+            certificate.enforce()
+        with watch.stage("deviation", "Measuring the deviation"):
+            before, after = _compare(part, workpiece.read(shape), list(registrations), cloud, nominal.shape)
+        with watch.stage("certify", "Waiting for the check for Boolean operations"):
+            certificate = _with_checks(certificate, *checks.result())
     moved = [part.faces[index].name for index in displacements]
     report = _report(part, cloud, tuple(registrations.values()), before, after, moved, certificate, watch)
     return Result(replace(nominal, shape=shape), nominal, cloud, tuple(registrations.values()), before, after,
@@ -240,6 +247,10 @@ def _outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -
     return outputs
 
 
+def _with_checks(certificate: Certificate, before: int | None, after: int | None) -> Certificate:
+    return Certificate(replace(certificate.before, boolean_check=before), replace(certificate.after, boolean_check=after))
+
+
 def _as_model(model: Model | Part.Shape | object) -> Model:
     return model if isinstance(model, Model) else files.from_object(model)
 
@@ -309,9 +320,7 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
     face = part.geometry(index)
     if method == "ffds":
         return register_ffds(face, cloud.points, _PAPER_LATTICE if lattice == "auto" else lattice, source_points)
-    from .registration.robust import register_robust
-
-    return register_robust(face, cloud.points, lattice)
+    return register_robust(face, cloud.points, None if lattice == "auto" else lattice)
 
 
 def _compare(nominal: Workpiece, built: Workpiece, indices: Sequence[int], cloud: PointCloud, shape: Part.Shape
