@@ -42,9 +42,13 @@ class SurfaceCoordinates:
     y: Array
     height: Array
 
-    def on_face(self, raster: Raster) -> SurfaceCoordinates:
-        """Those whose foot point lies inside the trims."""
-        return self._part(np.flatnonzero(raster.inside[raster.cell(self.x, self.y)]))
+    def on_face(self, raster: Raster, margin: float) -> SurfaceCoordinates:
+        """Those whose foot point lies inside the trims, at least ``margin`` mm from them."""
+        cell = raster.cell(self.x, self.y)
+        i, j = np.divmod(cell, raster.shape[1])
+        slope_x, slope_y = raster.gradient(raster.depth)
+        depth = raster.depth[cell] + slope_x[cell] * (self.x - i - 0.5) + slope_y[cell] * (self.y - j - 0.5)
+        return self._part(np.flatnonzero(depth >= margin))
 
     def sample(self, most: int) -> SurfaceCoordinates:
         """At most ``most`` of them, drawn at random but always the same."""

@@ -1,39 +1,117 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The size of a control lattice that a scan can determine."""
+"""The size of a control lattice that a scan can determine: coarse for the early steps, by held-out data for the last.
+
+Both directions get the same span in mm. A lattice is as fine as predicting parts of the face that were held out asks
+for: finer ones follow noise, coarser ones leave out what is there.
+"""
 from __future__ import annotations
 
 import numpy as np
 
+from .control_lattice import displacement_lattice
+from .normal_equations import LEAST_NOISE
 from .raster import Raster
-from .splines import DEGREE, SplineSurface
+from .splines import DEGREE, Array, SplineSurface
 from .start import Layers
 
 _SPAN_IN_LENGTHS = 4.0
-_LARGEST_TURN = np.radians(25)
-_FEWEST, _MOST = 5, 48
-_LEAST_NOISE = 0.02
+_COARSE_SPANS = 7
+_LARGEST_TURN = np.radians(30)
+_FEWEST, _MOST = 4, 64
+_SPANS = (2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 17, 20)
+_HELD_OUT_BLOCKS = 3
+_FOLDS = 4
+_TOLERANCE = 0.01
+"""Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
+_PATIENCE = 2
 
 
-def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:
-    """(N_i, N_j): spans just fine enough for what the fit can tell from noise.
-
-    Parameters
-    ----------
-    stiffness : weight of the bending energy in chi-square units
+def coarse_lattice(raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:
+    """(N_i, N_j) for the early steps: at most 7 spans along the longer side, none finer than the data resolve.
 
     Notes
     -----
-    A smoothing spline with bending weight λ on ρ points per mm² of noise σ averages over the length (λ σ² / ρ)^¼; spans
-    of four such lengths leave nothing of the signal out and follow none of the noise.
+    A smoothing spline with bending weight λ on ρ points per mm² of noise σ averages over the length (λ σ² / ρ)^¼.
     """
-    noise = max(layers.noise, _LEAST_NOISE)
-    span = _SPAN_IN_LENGTHS * (stiffness * noise**2 / layers.density) ** 0.25
+    return _size(raster, min(_COARSE_SPANS, _finest(raster, layers, stiffness)))
+
+
+def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, weights: Array,
+                      stiffness: float) -> tuple[int, int]:
+    """(N_i, N_j) of the lattice after the smallest that predicts held-out layers about as well as any.
+
+    One size more costs little noise, as the fit is regularised, and holding out makes the choice a little coarse.
+
+    Parameters
+    ----------
+    surface : the nominal surface
+    layers : heights of the scan over the nominal, block by block
+    weights : (k,) weight of each layer: its points, zero for what is not the face
+    stiffness : weight of the bending energy in chi-square units
+    """
+    finest = _finest(raster, layers, stiffness)
+    scores: list[float] = []
+    sizes: list[tuple[int, int]] = []
+    for spans in [s for s in _SPANS if s <= finest] or [_SPANS[0]]:
+        sizes.append(_size(raster, spans))
+        scores.append(_held_out(surface, raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2, sizes[-1], stiffness))
+        if len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
+            break
+    good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _TOLERANCE))
+    return sizes[min(int(good[0]) + 1, len(sizes) - 1)]
+
+
+def _finest(raster: Raster, layers: Layers, stiffness: float) -> float:
+    length = (stiffness * max(layers.noise, LEAST_NOISE) ** 2 / layers.density) ** 0.25
+    return float(max(_lengths(raster)) / (_SPAN_IN_LENGTHS * length))
+
+
+def _lengths(raster: Raster) -> Array:
+    return raster.size * np.array(raster.shape)
+
+
+def _size(raster: Raster, spans: float) -> tuple[int, int]:
+    """Lattice of about ``spans`` square spans along the longer side, and enough of them where the surface turns."""
+    lengths = _lengths(raster)
+    edge = lengths.max() / spans
     size = []
     for axis in (0, 1):
-        length = raster.size[axis] * raster.shape[axis]
-        curvature = np.abs(raster.curvature).max(axis=1)
-        turn = float(np.median(curvature)) * length
-        spans = max(length / span, min(turn, 2 * np.pi) / _LARGEST_TURN)
-        extra = 0 if raster.periodic[axis] else DEGREE
-        size.append(int(np.clip(np.ceil(spans) + extra, _FEWEST, _MOST)))
+        turns = np.ceil(raster.turn[axis] / _LARGEST_TURN)
+        count = int(max(round(lengths[axis] / edge), turns, 1))
+        size.append(int(np.clip(count if raster.periodic[axis] else count + DEGREE, _FEWEST, _MOST)))
     return size[0], size[1]
+
+
+def _held_out(surface: SplineSurface, raster: Raster, layers: Layers, data: Array, size: tuple[int, int],
+              stiffness: float) -> float:
+    """Mean squared residual of held-out layers, with a field of heights fitted to the others."""
+    lattice = displacement_lattice(surface, size)
+    u, v = raster.corner[0] + raster.step[0] * layers.x, raster.corner[1] + raster.step[1] * layers.y
+    rows = (lattice.basis_u(u)[:, :, None] * lattice.basis_v(v)[:, None]).reshape(len(u), -1)
+    bending = stiffness * _flat_bending(raster, lattice.basis_u, lattice.basis_v)
+    bending[np.diag_indices_from(bending)] += 1e-9 * np.trace(bending) / len(bending) + 1e-9
+    edge = _HELD_OUT_BLOCKS * layers.block
+    fold = ((layers.x // edge).astype(int) + 2 * (layers.y // edge).astype(int)) % _FOLDS
+    squared = total = 0.0
+    for held in range(0, _FOLDS, 2):
+        fitted = (fold != held) & (data > 0)
+        weighted = rows[fitted] * data[fitted, None]
+        points = np.linalg.solve(rows[fitted].T @ weighted + bending, weighted.T @ layers.height[fitted])
+        judged = (fold == held) & (data > 0)
+        residual = layers.height[judged] - rows[judged] @ points
+        squared += float(data[judged] @ residual**2)
+        total += float(data[judged].sum())
+    return squared / max(total, 1e-300)
+
+
+def _flat_bending(raster: Raster, basis_u, basis_v) -> Array:
+    """Bending energy of a field of heights on the face laid flat: ∫ h_xx² + 2 h_xy² + h_yy², dense."""
+    grams = []
+    for basis, axis in ((basis_u, 0), (basis_v, 1)):
+        count = 4 * raster.shape[axis]
+        x = raster.corner[axis] + raster.step[axis] * raster.shape[axis] * (np.arange(count) + 0.5) / count
+        scale = raster.step[axis] / raster.size[axis]
+        weight = _lengths(raster)[axis] / count
+        grams.append([weight * (b := basis(x, k) * scale**k).T @ b for k in range(3)])
+    (u0, u1, u2), (v0, v1, v2) = grams
+    return np.kron(u2, v0) + 2 * np.kron(u1, v1) + np.kron(u0, v2)

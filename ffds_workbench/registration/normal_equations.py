@@ -17,6 +17,9 @@ from .splines import DEGREE, Array
 
 Index = NDArray[np.intp]
 
+LEAST_NOISE = 0.1
+"""A fit never trusts points more than this (mm): what noise has in common among neighbours does not show in residuals."""
+
 _OFFSETS = 2 * DEGREE + 1
 
 

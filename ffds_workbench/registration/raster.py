@@ -22,6 +22,7 @@ _FEWEST, _MOST = 16, 256
 _LARGEST_TURN = 0.12
 """Largest turn of the normal along a cell in rad: the surface is taken as quadratic within one."""
 _FLAT = 1e-6
+_DEEP = 1e6
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Raster:
     curvature : (m·n, 2) along them, in 1/mm, negative where the surface bulges outwards
     area : (m·n,) in mm²
     inside : (m·n,) the cell's centre lies on the trimmed face
-    depth : (m·n,) distance of the centre from the nearest trim in mm
+    depth : (m·n,) distance of the centre from the nearest trim in mm, negative off the material
     """
 
     shape: tuple[int, int]
@@ -72,6 +73,14 @@ class Raster:
         return np.concatenate([self.position.T, self.principal_1.T, self.principal_2.T, self.normal.T,
                                self.curvature.T, np.stack(steps)])
 
+    @cached_property
+    def turn(self) -> tuple[float, float]:
+        """How far the normal turns from side to side of the face, in u and in v, in rad; at most a full turn."""
+        grid = self.normal.reshape(*self.shape, 3)
+        steps = [2 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.diff(grid, axis=k), axis=2), 1)) for k in (0, 1)]
+        u, v = (float(np.median(steps[k].sum(axis=k))) for k in (0, 1))
+        return min(u, 2 * np.pi), min(v, 2 * np.pi)
+
     @property
     def u(self) -> Array:
         """Parameters of the cells' centres in u, (m,)."""
@@ -102,6 +111,17 @@ class Raster:
         return i
 
 
+    def gradient(self, f: Array) -> tuple[Array, Array]:
+        """Central differences of (m·n,) values per cell; closed directions wrap."""
+        grid, result = f.reshape(self.shape), []
+        for axis, closed in enumerate(self.periodic):
+            if closed:
+                result.append(0.5 * (np.roll(grid, -1, axis) - np.roll(grid, 1, axis)).ravel())
+            else:
+                result.append(np.gradient(grid, axis=axis).ravel())
+        return result[0], result[1]
+
+
 def make_raster(face: FaceGeometry, cells: int = 4096) -> Raster:
     """Cut a face into about ``cells`` cells, nearly square in mm, and more where the surface turns strongly."""
     surface = face.surface
@@ -122,7 +142,8 @@ def make_raster(face: FaceGeometry, cells: int = 4096) -> Raster:
     inside = inside_trims(face, u, v).ravel()
     tangent_u, tangent_v = s_u * step[0], s_v * step[1]
     trims = boundary_points(face, 0.5 * float(np.sqrt(0.5 * (dot(tangent_u, tangent_u) + dot(tangent_v, tangent_v)).mean())))
-    depth = cKDTree(trims).query(position)[0] if len(trims) else np.full(len(position), np.inf)
+    depth = cKDTree(trims).query(position)[0] if len(trims) else np.full(len(position), _DEEP)
+    depth = np.where(inside, depth, -depth)
     return Raster(shape, corner, step, (surface.periodic_u, surface.periodic_v), flat, position, tangent_u, tangent_v,
                   normal, principal_1, principal_2, curvature, area * step[0] * step[1], inside, depth)
 

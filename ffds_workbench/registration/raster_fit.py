@@ -15,7 +15,7 @@ from .bending import bending_and_gauge
 from .control_lattice import ControlLattice
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, newton_in_cells
-from .normal_equations import grid_products, normal_matrix, offset_products, solve
+from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
 from .raster import Raster, dot
 from .splines import Array, SplineSurface, basis_matrix
 from .start import SmallMotion, tukey
@@ -24,7 +24,6 @@ Index = NDArray[np.intp]
 
 _NOISE_CUT = 4.685
 """Tukey's constant: 95 % efficiency on normal noise."""
-_LEAST_NOISE = 0.005
 _STEEPEST = 0.5
 """Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
 
@@ -109,8 +108,6 @@ class RasterFit:
         self.basis_v = [basis_matrix(lattice.knots_v, raster.v, derivative=k) * raster.step[1] ** k for k in (0, 1)]
         self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
-        margin = min(settings.margin, 0.5 * float(np.max(raster.depth[raster.inside], initial=0.0)))
-        self.counts = raster.inside & (raster.depth >= margin)
 
     def moved(self, motion: SmallMotion) -> State:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""
@@ -135,21 +132,24 @@ class RasterFit:
         graph = self._graph(state)
         cell, residual = self._residuals(graph, points)
         gate = max(gate, _NOISE_CUT * noise)
-        near = np.abs(residual) < gate
-        weight = np.where(near & (cell >= 0), tukey(residual, gate), 0.0)
-        weight *= self.counts[cell]
+        weight = tukey(residual, gate)
         if count is not None:
             weight *= count
-        cells = len(self.counts)
-        total = np.bincount(cell, weight, cells) if count is None else np.bincount(cell, weight, cells)
-        mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
+        cells = len(self.raster.inside)
+        total = np.bincount(cell, weight, cells)
+        mean = np.divide(np.bincount(cell, weight * np.where(weight > 0, residual, 0.0), cells), total, out=np.zeros(cells), where=total > 0)
         spread = np.abs(residual[weight > 0])
-        new_noise = max(1.4826 * float(np.median(spread)), _LEAST_NOISE) if len(spread) else noise
-        data = np.where(graph.usable, total, 0.0) / max(noise, _LEAST_NOISE) ** 2
+        new_noise = 1.4826 * float(np.median(spread)) if len(spread) else noise
+        data = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
         control_points = self._solve(row, target, data, stiffness)
         return self._state(control_points, total, int(np.count_nonzero(weight)), new_noise)
+
+    def point_weights(self, state: State, points: SurfaceCoordinates, gate: float, noise: float) -> Array:
+        """Tukey weights of points about the surface of a state, 0 off the face."""
+        cell, residual = self._residuals(self._graph(state), points)
+        return tukey(residual, max(gate, _NOISE_CUT * noise))
 
     def field(self, state: State) -> SplineSurface:
         """The displacement of a state as a spline in mm."""
@@ -168,7 +168,7 @@ class RasterFit:
         x, y, height, valid = newton_in_cells(raster, (raster.position + state.d).T, cells)
         i, j = np.divmod(cells, n)
         shift_x, shift_y = _nearest_turn(x - i - 0.5, m, raster.periodic[0]), _nearest_turn(y - j - 0.5, n, raster.periodic[1])
-        (xx, xy), (yx, yy), (hx, hy) = (_gradient(f.reshape(m, n), raster.periodic) for f in (shift_x, shift_y, height))
+        (xx, xy), (yx, yy), (hx, hy) = (raster.gradient(f) for f in (shift_x, shift_y, height))
         xx, yy = xx + 1, yy + 1
         jacobian = xx * yy - xy * yx
         steep = np.maximum.reduce([np.abs(xx - 1), np.abs(xy), np.abs(yx), np.abs(yy - 1)])
@@ -183,7 +183,7 @@ class RasterFit:
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
 
     def _residuals(self, graph: _Graph, points: SurfaceCoordinates) -> tuple[Index, Array]:
-        """Material cell of each point, −1 outside, and its height over the current surface in mm."""
+        """Material cell of each point and its height over the current surface in mm, infinite off the face."""
         raster = self.raster
         x, y = points.x, points.y
         if raster.flat:
@@ -192,10 +192,14 @@ class RasterFit:
             nominal = np.maximum(raster.cell(x, y), 0)
             material_x, material_y = x - graph.shift_x[nominal], y - graph.shift_y[nominal]
         cell = raster.cell(material_x, material_y)
+        outside = cell < 0
+        cell[outside] = 0
         i, j = np.divmod(cell, raster.shape[1])
         dx = _nearest_turn(x - (i + 0.5) - graph.shift_x[cell], raster.shape[0], raster.periodic[0])
         dy = _nearest_turn(y - (j + 0.5) - graph.shift_y[cell], raster.shape[1], raster.periodic[1])
-        return cell, points.height - graph.height[cell] - graph.slope_x[cell] * dx - graph.slope_y[cell] * dy
+        residual = points.height - graph.height[cell] - graph.slope_x[cell] * dx - graph.slope_y[cell] * dy
+        residual[outside] = np.inf
+        return cell, residual
 
     def _solve(self, row: Array, target: Array, data: Array, stiffness: float) -> Array:
         """Control points that minimise Σ data (row · d − target)² + bending + gauge."""
@@ -218,14 +222,3 @@ class RasterFit:
 
 def _nearest_turn(x: Array, period: int, periodic: bool) -> Array:
     return np.mod(x + 0.5 * period, period) - 0.5 * period if periodic else x
-
-
-def _gradient(f: Array, periodic: tuple[bool, bool]) -> tuple[Array, Array]:
-    """Central differences per cell on the raster, flattened; closed directions wrap."""
-    result = []
-    for axis, closed in enumerate(periodic):
-        if closed:
-            result.append(0.5 * (np.roll(f, -1, axis) - np.roll(f, 1, axis)).ravel())
-        else:
-            result.append(np.gradient(f, axis=axis).ravel())
-    return result[0], result[1]

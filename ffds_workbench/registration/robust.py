@@ -17,7 +17,7 @@ from ..errors import RefusedError
 from .control_lattice import displacement_lattice
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, surface_coordinates
-from .lattice_size import automatic_lattice
+from .lattice_size import automatic_lattice, coarse_lattice
 from .raster import Raster, make_raster
 from .raster_fit import RasterFit, RobustSettings
 from .result import FaceRegistration
@@ -44,16 +44,22 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
     raster = make_raster(face)
-    points = surface_coordinates(raster, scan, settings.reach).on_face(raster)
+    margin = min(settings.margin, 0.5 * float(raster.depth.max()))
+    points = surface_coordinates(raster, scan, settings.reach).on_face(raster, margin)
     _check_points(face, points, settings)
     layers = outermost_layers(raster, points.sample(settings.sample))
     layers = replace(layers, density=layers.density * max(1.0, len(points.x) / settings.sample))
-    size = lattice or automatic_lattice(face.surface, raster, layers, settings.stiffness)
+    size = lattice or coarse_lattice(raster, layers, settings.stiffness)
     fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     _check_lattice(face, fit, points)
     state = fit.moved(rigid_start(raster, layers))
     for stiffness, gate in settings.schedule:
         state = fit.step(state, layers.as_points(), layers.count, layers.noise, stiffness, gate)
+    if lattice is None:
+        weights = fit.point_weights(state, layers.as_points(), settings.schedule[-1][1], layers.noise) * layers.count
+        best = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
+        if best != size:
+            fit = RasterFit(face, raster, displacement_lattice(face.surface, best), settings)
     noise = layers.noise
     for stiffness, gate in settings.final:
         state = fit.step(state, points, None, noise, stiffness, gate)

@@ -41,6 +41,7 @@ class Layers:
     count : (k,) number of points
     noise : estimated standard deviation of the points along the normal in mm; slopes within a block included
     density : points per mm² of face where the scan covers it
+    block : cells along the side of a block
     """
 
     x: Array
@@ -49,6 +50,7 @@ class Layers:
     count: Array
     noise: float
     density: float
+    block: int
 
     def as_points(self) -> SurfaceCoordinates:
         """The layers as if each were one scan point."""
@@ -79,7 +81,7 @@ def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     member = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size) + np.repeat(start, size)
     x, y = (np.bincount(label, a[order][member]) / size for a in (points.x, points.y))
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density)
+    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density, edge)
 
 
 @dataclass(frozen=True)
