@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Sourced by setup.sh and test.sh: which Debian packages are needed, and how they are installed.
+
+run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d"
+test_packages="python3-pytest mypy flake8 xvfb xauth python3-pyside2.qttest"
+
+# Install those of the named packages that are missing; nothing is touched if none is.
+install_packages() {
+    missing=""
+    for package in "$@"; do
+        if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "install ok installed"; then
+            missing="$missing $package"
+        fi
+    done
+    [ -n "$missing" ] || return 0
+    if [ "$(id -u)" -eq 0 ]; then
+        as_root="env"
+    elif command -v sudo >/dev/null; then
+        as_root="sudo env"
+    else
+        echo "ffds: these packages are missing and neither root nor sudo is at hand:$missing" >&2
+        return 2
+    fi
+    echo "Installing$missing"
+    $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq update
+    # shellcheck disable=SC2086 # the list is meant to be split
+    $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing
+}
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    echo "ffds: setup and test need Debian's apt-get; elsewhere install FreeCAD, numpy, scipy, matplotlib and open3d" >&2
+    exit 2
+fi

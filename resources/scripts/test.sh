@@ -1,0 +1,55 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# ./ffds test: install what the tests need and run them all: lint, types, plain Python, freecadcmd, FreeCAD's GUI.
+# Arguments go to pytest. Skipped tests are listed with their reasons. Fails if anything fails.
+set -eu
+
+root=$(dirname -- "$(readlink -f -- "$0")")/../..
+root=$(cd -- "$root" && pwd)
+. "$root/resources/scripts/packages.sh"
+cd "$root"
+
+# shellcheck disable=SC2086 # the lists are meant to be split
+install_packages $run_packages $test_packages
+
+python=/usr/bin/python3
+home=$(mktemp -d)
+trap 'rm -rf "$home"' EXIT
+mkdir "$home/Mod"
+ln -s "$root" "$home/Mod/FFDS"
+cp tests/gui/user.cfg "$home/user.cfg"
+FREECAD_USER_HOME=$home
+PYTHONDONTWRITEBYTECODE=1
+QTWEBENGINE_DISABLE_SANDBOX=1
+export FREECAD_USER_HOME PYTHONDONTWRITEBYTECODE QTWEBENGINE_DISABLE_SANDBOX
+failed=""
+
+step() {
+    name=$1
+    shift
+    echo
+    echo "== $name"
+    if "$@"; then :; else
+        echo "== $name: FAILED (exit code $?)"
+        failed="$failed, $name"
+    fi
+}
+
+if command -v ruff >/dev/null; then
+    step "lint (ruff)" ruff check --no-cache .
+else
+    echo "== lint: ruff is not installed, Debian's flake8 stands in"
+    step "lint (flake8)" flake8 --max-line-length 120 --extend-ignore E203,E402,E731,W503 --exclude .git,out .
+fi
+step "types (mypy)" mypy --no-error-summary --cache-dir "$home/mypy"
+step "tests in plain Python" "$python" -m pytest -q --ignore tests/gui "$@"
+step "tests in freecadcmd" freecadcmd -c \
+    "import sys, pytest; sys.exit(pytest.main(['-q', 'tests/api', 'tests/brep', 'tests/report', 'tests/scan']))"
+step "tests in FreeCAD's GUI" timeout 600 xvfb-run -a -s "-screen 0 1600x1000x24" freecad tests/gui/run_in_freecad.py
+
+echo
+if [ -n "$failed" ]; then
+    echo "FAILED: ${failed#, }"
+    exit 1
+fi
+echo "All passed. The skipped tests and their reasons are listed above."

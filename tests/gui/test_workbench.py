@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FreeCAD's GUI knows the workbench and opens it without a warning."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import FreeCADGui as Gui
+from PySide2 import QtCore, QtWidgets
+
+
+def _report_view() -> str:
+    loop = QtCore.QEventLoop()
+    QtCore.QTimer.singleShot(300, loop.quit)
+    loop.exec_()
+    views = Gui.getMainWindow().findChildren(QtWidgets.QTextEdit, "Report view")
+    return "\n".join(view.toPlainText() for view in views)
+
+
+def test_the_workbench_opens_without_a_warning():
+    before = _report_view()
+    Gui.activateWorkbench("FFDSWorkbench")
+    assert Gui.activeWorkbench().name() == "FFDSWorkbench"
+    new = _report_view()[len(before):]
+    assert "FFDS" not in before
+    assert not [line for line in new.splitlines() if "arning" in line or "rror" in line or "Traceback" in line]
+
+
+def test_the_workbench_has_an_icon_and_a_name():
+    workbench = Gui.getWorkbench("FFDSWorkbench")
+    assert Path(workbench.Icon).is_file()
+    assert workbench.MenuText == "FFDS"
