@@ -52,6 +52,7 @@ class MeasuredSeam:
     nominal, offsets : the paired nominal stations and the differences; None without a nominal model
     flags : (n,) "observed", "bridged", "carried" or "nominal"
     bands : (n,) 95 % band in mm, NaN where unknown
+    doubts : a sentence if a part of it was not observed; None if all was, or without a registration's report
     """
 
     stations: Stations
@@ -59,16 +60,12 @@ class MeasuredSeam:
     offsets: Offsets | None
     flags: Array
     bands: Array
+    doubts: str | None = None
 
     @property
     def name(self) -> str:
         """The edges it runs along."""
         return self.stations.seam.name
-
-    @property
-    def doubts(self) -> str | None:
-        """A sentence if a part of it was not observed; None without a registration report."""
-        return doubts(self.name, self.flags, self.stations.places.arc_length)
 
     def largest(self) -> dict[str, float]:
         """Largest absolute values by the names of the limits, in mm and degrees; only those that are known."""
@@ -88,11 +85,12 @@ class MeasuredSeam:
 
 
 def measure(as_built: Weldment, seam: Seam, settings: SeamSettings, nominal: Weldment | None = None,
-            trust: Trust = NO_REPORT) -> MeasuredSeam:
-    """Sample a seam and compare it with the nominal one."""
+            trust: Trust | None = None) -> MeasuredSeam:
+    """Sample a seam; compare it with the nominal one, and look up what a registration's report says of it."""
     found = stations(as_built, seam, settings)
-    flags, bands = trust.along(found)
+    flags, bands = (trust or NO_REPORT).along(found)
+    doubt = None if trust is None else doubts(seam.name, flags, found.places.arc_length)
     if nominal is None:
-        return MeasuredSeam(found, None, None, flags, bands)
+        return MeasuredSeam(found, None, None, flags, bands, doubt)
     before = nominal_stations(nominal, as_built, found, settings)
-    return MeasuredSeam(found, before, offsets(before, found), flags, bands)
+    return MeasuredSeam(found, before, offsets(before, found), flags, bands, doubt)

@@ -72,11 +72,15 @@ def stations(weldment: Weldment, seam: Seam, settings: SeamSettings) -> Stations
 
 def stations_at(weldment: Weldment, seam: Seam, places: Places, settings: SeamSettings) -> Stations:
     """The stations of a seam at given places of its edges."""
-    pieces = [_Piece(weldment, stretch, places.fraction[places.stretch == number])
-              for number, stretch in enumerate(seam.stretches)]
-    positions, tangents, n1, n2, curvature, opening, gap = (
-        np.concatenate([getattr(piece, name) for piece in pieces if len(piece.fractions)])
-        for name in ("positions", "tangents", "n1", "n2", "curvature", "opening", "gap"))
+    rows: list[list[Array]] = []
+    for number, stretch in enumerate(seam.stretches):
+        here = beside(weldment, stretch, places.fraction[places.stretch == number])
+        between = frames.angle_between(here.n1, here.n2)
+        opening = np.pi - between if _is_concave(weldment, stretch) else np.pi + between
+        forwards = 1.0 if stretch.end > stretch.start else -1.0
+        rows.append([here.positions, forwards * here.tangents, here.n1, here.n2, here.curvature, opening,
+                     signed_gap(weldment, stretch.other, here.positions)])
+    positions, tangents, n1, n2, curvature, opening, gap = map(np.concatenate, zip(*rows, strict=True))
     try:
         bisector = frames.torch_frames(tangents, n1, n2)
     except RefusedError as error:
@@ -87,23 +91,24 @@ def stations_at(weldment: Weldment, seam: Seam, places: Places, settings: SeamSe
                     0.5 * opening + away * settings.work_angle, settings.travel_angle)
 
 
-class _Piece:
-    """The stations on one stretch."""
+@dataclass(frozen=True)
+class Beside:
+    """Places on one edge: position, direction towards growing fractions, curvature, and the normals of two faces."""
 
-    def __init__(self, weldment: Weldment, stretch: Stretch, fractions: Array) -> None:
-        self.fractions = fractions
-        if not len(fractions):
-            return
-        curve = weldment.curve(stretch.edge, fractions)
-        self.positions = curve.points
-        self.tangents = curve.tangents if stretch.end > stretch.start else -curve.tangents
-        self.curvature = curve.curvatures
-        own = weldment.topology.edge_faces[stretch.edge]
-        self.n1, self.n2 = (weldment.normals_beside(face, stretch.edge, fractions) if face in own
-                            else weldment.nearest((face,), curve.points).normals for face in stretch.faces)
-        between = frames.angle_between(self.n1, self.n2)
-        self.opening = np.pi - between if _is_concave(weldment, stretch) else np.pi + between
-        self.gap = signed_gap(weldment, stretch.other, curve.points)
+    positions: Array
+    tangents: Array
+    curvature: Array
+    n1: Array
+    n2: Array
+
+
+def beside(weldment: Weldment, stretch: Stretch, fractions: Array) -> Beside:
+    """The edge of a stretch and the faces that it joins, at fractions (n,) of the edge."""
+    curve = weldment.curve(stretch.edge, fractions)
+    own = weldment.topology.edge_faces[stretch.edge]
+    n1, n2 = (weldment.normals_beside(face, stretch.edge, fractions) if face in own
+              else weldment.nearest((face,), curve.points).normals for face in stretch.faces)
+    return Beside(curve.points, curve.tangents, curve.curvatures, n1, n2)
 
 
 def _is_concave(weldment: Weldment, stretch: Stretch) -> bool:

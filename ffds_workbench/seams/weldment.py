@@ -155,7 +155,7 @@ class Weldment:
             # On the boundary the answer names an edge or a vertex; the normal is still the face's.
             u, v = parameter if kind == "Face" else surface.Surface.parameter(foot)
             closest.append(tuple(foot))
-            normals.append(self._normal(face, u, v, *_towards_middle(surface, u, v)))
+            normals.append(self._normal(face, u, v, *towards_middle(surface, u, v)))
             distances.append(distance)
         return NearestPoints(np.array(closest), np.array(normals), np.array(distances), np.full(len(points), face))
 
@@ -169,6 +169,7 @@ class Weldment:
         return self.shape.Solids
 
 
-def _towards_middle(face: Part.Face, u: float, v: float) -> tuple[float, float]:
+def towards_middle(face: Part.Face, u: float, v: float) -> tuple[float, float]:
+    """Parameters a little nearer to the middle of the face's range: off a pole or an apex."""
     u0, u1, v0, v1 = face.ParameterRange
     return u + _INWARDS * (0.5 * (u0 + u1) - u), v + _INWARDS * (0.5 * (v0 + v1) - v)

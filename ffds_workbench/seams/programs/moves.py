@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The moves that weld a seam, in no dialect yet: down to it, along it, and away."""
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError
+from ...registration.splines import Array
+from ..measured import MeasuredSeam
+
+FrameChoice = int | str | tuple[float, ...] | None
+"""A tool or a base: its number or name on the controller, or X, Y, Z, A, B, C in mm and degrees; None for the default."""
+
+AIR_VELOCITY = 100.0
+"""Speed of approach and retract in mm/s."""
+_LARGEST_BLEND = 1.0
+
+
+@dataclass(frozen=True)
+class RobotSettings:
+    """What the programs need besides the poses.
+
+    Attributes
+    ----------
+    tool, base : see `FrameChoice`; ``base`` is where the model's frame stands for the robot
+    velocity : along the seam in mm/s
+    approach : distance in mm from which the torch comes down to the seam's start, and to which it leaves the end
+    """
+
+    tool: FrameChoice = None
+    base: FrameChoice = None
+    velocity: float = 10.0
+    approach: float = 50.0
+
+    def __post_init__(self) -> None:
+        if not 0.01 <= self.velocity <= 2000.0:
+            raise InputError(f"the velocity must lie between 0.01 and 2000 mm/s, not {self.velocity:g}")
+        if not 0.0 <= self.approach <= 2000.0:
+            raise InputError(f"the approach must lie between 0 and 2000 mm, not {self.approach:g}")
+
+
+def read_frame_choice(text: str) -> FrameChoice:
+    """A tool or a base as a user writes it: "3", "tWeldGun", or "X,Y,Z,A,B,C" in mm and degrees.
+
+    Raises
+    ------
+    InputError
+    """
+    if text.isdecimal():
+        return int(text)
+    if re.fullmatch(r"[A-Za-z_]\w{0,31}", text, re.ASCII):
+        return text
+    try:
+        values = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        values = ()
+    if len(values) != 6 or not all(map(math.isfinite, values)):
+        raise InputError(f"'{text}' is no tool or base: give a number, a name, or X,Y,Z,A,B,C in mm and degrees")
+    return values
+
+
+@dataclass(frozen=True)
+class SeamMoves:
+    """One seam.
+
+    Attributes
+    ----------
+    title : for comments
+    approach, retract : (4, 4) poses before the first and after the last station
+    poses : (n, 4, 4) torch frames at the stations
+    blend : radius in mm within which the robot may round the stations between the first and the last
+    """
+
+    title: str
+    approach: Array
+    poses: Array
+    retract: Array
+    blend: float
+
+    @property
+    def all_poses(self) -> Array:
+        """(n + 2, 4, 4), in the order in which the robot passes them."""
+        return np.concatenate([self.approach[None], self.poses, self.retract[None]])
+
+
+def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
+    """The moves along a seam."""
+    stations = seam.stations
+    poses = np.tile(np.eye(4), (len(stations), 1, 1))
+    poses[:, :3, :3], poses[:, :3, 3] = stations.torch, stations.positions
+    spacing = float(np.linalg.norm(np.diff(stations.positions, axis=0), axis=1).min())
+    return SeamMoves(f"{seam.name} ({stations.seam.kind}), {stations.length:.1f} mm", _above(poses[0], settings.approach),
+                     poses, _above(poses[-1], settings.approach), min(_LARGEST_BLEND, 0.25 * spacing))
+
+
+def _above(pose: Array, distance: float) -> Array:
+    """The pose, moved back against its approach direction."""
+    moved = pose.copy()
+    moved[:3, 3] -= distance * pose[:3, 2]
+    return moved
+
+
+def program_name(stem: str, limit: int) -> str:
+    """A name that every controller takes, from that of the file."""
+    name = re.sub(r"\W", "_", stem, flags=re.ASCII)
+    return (name if name[:1].isalpha() else "s" + name)[:limit]
+
+
+def plain(text: str) -> str:
+    """Text for a comment: ASCII, one line."""
+    return " ".join(text.encode("ascii", "replace").decode().split())
+
+
+def numbers(values: Sequence[float] | Array, digits: int) -> list[str]:
+    """Numbers of fixed digits, without a minus zero."""
+    return [f"{round(value, digits) + 0.0:.{digits}f}" for value in map(float, values)]

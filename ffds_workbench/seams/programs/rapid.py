@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""ABB RAPID: a module (.mod) with its targets, in mm and quaternions of which q1 is the scalar."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...errors import InputError
+from ...registration.splines import Array
+from .conventions import abb_quaternions, from_kuka_angles
+from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+
+NAME_LIMIT = 24
+_NO_AXES = "[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]"
+
+
+def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> str:
+    """The text of ``stem``.mod.
+
+    Raises
+    ------
+    InputError : a tool or base is given by number
+    """
+    name = program_name(stem, NAME_LIMIT)
+    tool, tool_data = _choice("tool", settings.tool, "tool0", "tFfdsTorch")
+    base, base_data = _choice("base", settings.base, "wobj0", "wFfdsModel")
+    lines = [f"MODULE {name}_m",
+             "  ! Welds seams of an as-built model. Targets: mm and quaternions [q1,q2,q3,q4], q1 the scalar.",
+             "  ! Torch frame: z out of the nozzle into the joint, x along the travel. The work object is the model's frame."]
+    if tool_data:
+        lines.append(f"  PERS tooldata {tool}:=[TRUE,{tool_data},[1,[0,0,100],[1,0,0,0],0,0,0]];")
+    if base_data:
+        lines.append(f"  PERS wobjdata {base}:=[FALSE,TRUE,\"\",{base_data},[[0,0,0],[1,0,0,0]]];")
+    lines += [f"  CONST speeddata vFfdsWeld:=[{settings.velocity:g},100,1000,1000];",
+              f"  CONST speeddata vFfdsAir:=[{AIR_VELOCITY:g},100,1000,1000];"]
+    body: list[str] = []
+    for number, seam in enumerate(seams, 1):
+        zone = f"zFfds{number}"
+        points = [f"pS{number}_{i}" for i in range(1, len(seam.poses) + 1)]
+        names = [f"pS{number}_in", *points, f"pS{number}_out"]
+        lines += [f"  CONST robtarget {point}:=[{pose},{_NO_AXES}];"
+                  for point, pose in zip(names, pose_texts(seam.all_poses), strict=True)]
+        blend = f"{seam.blend:.3f}"
+        lines.append(f"  CONST zonedata {zone}:=[FALSE,{blend},{blend},{blend},0.5,{blend},0.5];")
+        at = f"{tool}\\WObj:={base};"
+        body += [f"    ! {plain(seam.title)}", f"    MoveJ pS{number}_in,vFfdsAir,fine,{at}",
+                 f"    MoveL {points[0]},vFfdsAir,fine,{at}", f"    ! seam {number} starts"]
+        body += [f"    MoveL {point},vFfdsWeld,{zone},{at}" for point in points[1:-1]]
+        body += [f"    MoveL {points[-1]},vFfdsWeld,fine,{at}", f"    ! seam {number} ends",
+                 f"    MoveL pS{number}_out,vFfdsAir,fine,{at}"]
+    lines += [f"  PROC {name}()", "    ConfJ\\Off;", "    ConfL\\Off;", *body, "  ENDPROC", "ENDMODULE"]
+    return "\n".join(lines) + "\n"
+
+
+def pose_texts(poses: Array) -> list[str]:
+    """Poses (n, 4, 4) as RAPID's, "[[x,y,z],[q1,q2,q3,q4]]"."""
+    q = abb_quaternions(poses[:, :3, :3])
+    return [f"[[{','.join(numbers(pose[:3, 3], 4))}],[{','.join(numbers(turn, 9))}]]"
+            for pose, turn in zip(poses, q, strict=True)]
+
+
+def _choice(what: str, choice: FrameChoice, default: str, own: str) -> tuple[str, str]:
+    """The name to move with, and the pose to declare it with, if it is not the controller's."""
+    if choice is None:
+        return default, ""
+    if isinstance(choice, int):
+        raise InputError(f"ABB controllers name their {what}s: give a name or X,Y,Z,A,B,C instead of {choice}")
+    if isinstance(choice, str):
+        return choice, ""
+    pose = np.eye(4)[None]
+    pose[0, :3, :3], pose[0, :3, 3] = from_kuka_angles(np.array([choice[3:]]))[0], choice[:3]
+    return own, pose_texts(pose)[0]

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FreeCAD's own robot trajectories: one ``Robot::TrajectoryObject`` per seam, alone or in a new document."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import FreeCAD
+import Robot
+
+from ...errors import RefusedError
+from .moves import AIR_VELOCITY, RobotSettings, SeamMoves
+
+_NAMED_TOOL = 1
+
+
+def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings) -> list[object]:
+    """Add the seams to a document; velocities are in mm/s, and a tool or base number is passed on."""
+    objects = []
+    tool = settings.tool if isinstance(settings.tool, int) else _NAMED_TOOL
+    base = settings.base if isinstance(settings.base, int) else 0
+    for number, seam in enumerate(seams, 1):
+        last = len(seam.poses)
+        waypoints = []
+        for i, pose in enumerate(seam.all_poses):
+            air = i in (0, 1, last + 1)
+            waypoints.append(Robot.Waypoint(FreeCAD.Placement(FreeCAD.Matrix(*pose.ravel().tolist())),
+                                            type="PTP" if i == 0 else "LIN", name=f"S{number}P{i}",
+                                            vel=AIR_VELOCITY if air else settings.velocity, cont=1 < i < last,
+                                            tool=tool, base=base))
+        item = document.addObject("Robot::TrajectoryObject", f"Seam{number}")
+        item.Label = seam.title
+        item.Trajectory = Robot.Trajectory(waypoints)
+        objects.append(item)
+    return objects
+
+
+def write_document(path: Path, seams: Sequence[SeamMoves], settings: RobotSettings) -> None:
+    """Write a new document that holds the seams alone (RefusedError if it cannot be written)."""
+    document = FreeCAD.newDocument("FFDS_seams", hidden=True, temp=True)
+    try:
+        add_trajectories(document, seams, settings)
+        document.recompute()
+        document.saveAs(str(path))
+    except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
+        raise RefusedError(f"the document could not be written: {error}") from error
+    finally:
+        FreeCAD.closeDocument(document.Name)
