@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from ..registration.splines import DEGREE, Array
 from .curves import Spline
-from .lattice import Direction, direction
+from .lattice import direction
 
 _MOST_KNOTS = 3000
 _ROUNDS = 10
@@ -26,21 +25,16 @@ def fit_curve(f: Callable[[Array], Array], first: float, last: float, breaks: Ar
     """
     side = direction(first, last, breaks, closed=False)
     for _ in range(_ROUNDS):
-        curve = _interpolate(f, side)
-        checks = side.checks
-        errors = np.linalg.norm(f(checks.ravel()) - curve(checks.ravel()), axis=1).reshape(checks.shape).max(axis=1)
-        if errors.max() <= tolerance:
-            break
+        sites, checks = side.sites, side.checks
+        values = f(np.concatenate([sites, checks.ravel()]))
+        curve = Spline(DEGREE, side.knots, side.solve(values[: len(sites)]), rational=False, periodic=False)
+        off = np.linalg.norm(values[len(sites) :] - curve(checks.ravel()), axis=1)
+        errors = off.reshape(checks.shape).max(axis=1)
         finer = side.refined(errors, tolerance, _MOST_KNOTS)
-        if finer is side:
+        if errors.max() <= tolerance or finer is side:
             break
         side = finer
     return curve
-
-
-def _interpolate(f: Callable[[Array], Array], side: Direction) -> Spline:
-    poles = side.solve(f(side.sites))
-    return Spline(DEGREE, side.knots, poles, rational=False, periodic=False)
 
 
 def crossings(path: Callable[[Array], Array], first: float, last: float, levels: Array, samples: int = 513) -> Array:

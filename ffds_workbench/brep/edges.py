@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array, SplineSurface
+from ..registration.splines import DEGREE, Array, SplineSurface, basis_matrix
 from .curve_fit import crossings, fit_curve
 from .curves import Curve, Line, Spline
 from .pcurves import Pcurve
@@ -19,6 +20,8 @@ _KINK = 0.05
 algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off."""
 _KINK_STEP = 1e-5
 _SAME_BREAK = 1e-6
+_ALONG = 1e-15
+"""A pcurve's direction has no component below this."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,28 @@ class Trace:
 
     def at(self, fraction: Array) -> Array:
         """Points at fractions of the edge's range, (n,) in [0, 1] to (n, 3)."""
+        if self._isoparametric is not None:
+            axis, curve = self._isoparametric
+            start, end = curve.knots[DEGREE], curve.knots[-DEGREE - 1]
+            along = self.uv(fraction)[:, axis]
+            return curve(along if curve.periodic else np.clip(along, start, end))
         return self.surface(self.uv(fraction))
+
+    @cached_property
+    def _isoparametric(self) -> tuple[int, Spline] | None:
+        """For a pcurve along u or v: that axis, and the surface's curve there, much faster than the surface."""
+        line, surface = self.pcurve.curve, self.surface
+        if not isinstance(line, Line) or np.count_nonzero(np.abs(line.direction) > _ALONG) != 1:
+            return None
+        axis = int(np.argmax(np.abs(line.direction)))
+        at = surface.inside(line.origin[None, :])[:, 1 - axis]
+        if axis == 0:
+            row = basis_matrix(surface.knots_v, at, surface.degree_v)
+            return 0, Spline(DEGREE, surface.knots_u, np.einsum("k,ikd->id", row[0], surface.control_points), False,
+                             surface.periodic_u)
+        row = basis_matrix(surface.knots_u, at, surface.degree_u)
+        return 1, Spline(DEGREE, surface.knots_v, np.einsum("k,kjd->jd", row[0], surface.control_points), False,
+                         surface.periodic_v)
 
     def uv(self, fraction: Array) -> Array:
         """Parameters on the face at fractions of the edge's range: (n, 2)."""

@@ -24,7 +24,7 @@ from .rewriting import NewEdge, NewFace, NewVertex, Rewriter
 from .text import BrepText, Curve3d, EdgeCurves, VertexPoint, dump, parse
 from .workpiece import Workpiece, WorkpieceFace
 
-SURFACE_TOLERANCE = 4e-6
+SURFACE_TOLERANCE = 2e-6
 """Largest distance in mm of a new surface from the nominal one plus its displacement, where nothing else is asked."""
 
 _STILL = 1e-5
