@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Fair timing: the competitors take turns, so that a busy moment of the machine hits all of them."""
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+
+def median_seconds(jobs: Mapping[str, Callable[[], Any]], repeats: int = 20) -> dict[str, float]:
+    """Median wall time of each job in seconds, each run ``repeats`` times in turn after one run to warm up."""
+    times: dict[str, list[float]] = {name: [] for name in jobs}
+    for turn in range(repeats + 1):
+        for name, job in jobs.items():
+            start = time.perf_counter()
+            job()
+            if turn:
+                times[name].append(time.perf_counter() - start)
+    return {name: float(np.median(values)) for name, values in times.items()}
