@@ -46,7 +46,7 @@ def _put_on_path() -> None:
     library = find_library()
     if library is None:
         raise InputError("FreeCAD was not found: install it (./ffds setup) or name the folder of its FreeCAD.so "
-                         "in FREECAD_LIB")
+                         "in FREECAD_LIB.")
     sys.path.insert(0, str(library))
     for shared in map(Path, _SHARED):
         extra = [shared / "Ext", *sorted((shared / "Mod").glob("*"))]

@@ -248,7 +248,8 @@ def _outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -
 
 
 def _with_checks(certificate: Certificate, before: int | None, after: int | None) -> Certificate:
-    return Certificate(replace(certificate.before, boolean_check=before), replace(certificate.after, boolean_check=after))
+    return Certificate(replace(certificate.before, boolean_check=before),
+                       replace(certificate.after, boolean_check=after))
 
 
 def _as_model(model: Model | Part.Shape | object) -> Model:

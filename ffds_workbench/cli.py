@@ -34,7 +34,7 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one line."""
 
     def error(self, message: str) -> NoReturn:
-        raise InputError(f"{message} ({self.prog} --help lists what there is)")
+        raise InputError(f"{message[:1].upper()}{message[1:]} ({self.prog} --help lists what there is).")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -23,13 +23,13 @@ def check_writable(path: Path, inputs: Sequence[Path] = ()) -> None:
     """
     folder = path.parent
     if path.is_dir():
-        raise InputError(f"the output {path} is a folder: name a file")
+        raise InputError(f"The output {path} is a folder: name a file.")
     if not folder.is_dir():
-        raise InputError(f"the output folder {folder} does not exist")
+        raise InputError(f"The output folder {folder} does not exist.")
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise InputError(f"the output folder {folder} cannot be written")
+        raise InputError(f"The output folder {folder} cannot be written.")
     if path.exists() and any(item.exists() and item.samefile(path) for item in inputs):
-        raise InputError(f"the output {path} is also an input: choose another name")
+        raise InputError(f"The output {path} is also an input: choose another name.")
 
 
 @contextmanager
@@ -50,7 +50,7 @@ def replacing(*paths: Path) -> Iterator[list[Path]]:
             os.replace(path, destination)
     except OSError as error:
         names = ", ".join(str(path) for path in paths)
-        raise RefusedError(f"{names} could not be written: {error.strerror or error}") from error
+        raise RefusedError(f"{names} could not be written: {error.strerror or error}.") from error
     finally:
         for path in temporary:
             path.unlink(missing_ok=True)

@@ -54,21 +54,21 @@ def read(path: str | Path, label: str | None = None) -> Model:
     path = Path(path)
     suffix = path.suffix.lower()
     if path.is_dir():
-        raise InputError(f"the model {path} is a folder: name a file")
+        raise InputError(f"The model {path} is a folder: name a file.")
     if not path.exists():
-        raise InputError(f"the model {path} does not exist")
+        raise InputError(f"The model {path} does not exist.")
     if suffix not in (*_EXCHANGE, _DOCUMENT):
-        raise InputError(f"the model {path} is of an unknown format: use one of {FORMATS}")
+        raise InputError(f"The model {path} is of an unknown format: use one of {FORMATS}.")
     if path.stat().st_size == 0:
-        raise InputError(f"the model {path} is empty")
+        raise InputError(f"The model {path} is empty.")
     if suffix == _DOCUMENT:
         return _checked(path, _read_document(path, label))
     if label is not None:
-        raise InputError(f"--object picks an object of a FreeCAD document, and {path} is none")
+        raise InputError(f"--object picks an object of a FreeCAD document, and {path} is none.")
     try:
         shape = Part.read(str(path))
     except (RuntimeError, OSError, ValueError, Part.OCCError, FreeCAD.Base.FreeCADError) as error:
-        raise InputError(f"the model {path} cannot be read: it is damaged or not a {suffix} file") from error
+        raise InputError(f"The model {path} cannot be read: it is damaged or not a {suffix} file.") from error
     model = _checked(path, Model(shape, path.stem))
     if suffix not in (".step", ".stp"):
         return model
@@ -82,11 +82,11 @@ def _kinds(shape: Part.Shape) -> list[str]:
 
 def _checked(path: Path, model: Model) -> Model:
     if model.shape.isNull():
-        raise InputError(f"the model {path} holds no shape: it is damaged or empty")
+        raise InputError(f"The model {path} holds no shape: it is damaged or empty.")
     if not model.shape.Faces:
-        raise InputError(f"the model {path} has no faces: FFDS deforms the faces of a solid, shell or compound")
+        raise InputError(f"The model {path} has no faces: FFDS deforms the faces of a solid, shell or compound.")
     if not model.shape.isValid():
-        raise InputError(f"the model {path} is not a valid shape (Part: Check geometry lists why): repair it first")
+        raise InputError(f"The model {path} is not a valid shape (Part: Check geometry lists why): repair it first.")
     return model
 
 
@@ -100,7 +100,7 @@ def from_object(item: object) -> Model:
     if isinstance(item, Part.Shape):
         return _checked(Path("(shape)"), Model(item, "Shape"))
     if not hasattr(item, "Shape"):
-        raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part")
+        raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part.")
     colours = ()
     if getattr(item, "ViewObject", None) is not None:
         colours = tuple(map(tuple, getattr(item.ViewObject, "DiffuseColor", ())))
@@ -118,11 +118,11 @@ def _placed_shape(item: object) -> Part.Shape:
 
 def _read_document(path: Path, label: str | None) -> Model:
     if not zipfile.is_zipfile(path):
-        raise InputError(f"the model {path} is damaged or not a FreeCAD document")
+        raise InputError(f"The model {path} is damaged or not a FreeCAD document.")
     try:
         document = FreeCAD.openDocument(str(path), hidden=True)
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
-        raise InputError(f"the model {path} is damaged or not a FreeCAD document") from error
+        raise InputError(f"The model {path} is damaged or not a FreeCAD document.") from error
     try:
         item = _pick(path, document, label)
         return Model(_placed_shape(item), item.Label, Decoration(colours=document_colours.read(path, item.Name)))
@@ -137,21 +137,21 @@ def _pick(path: Path, document: object, label: str | None) -> object:
         named = [item for item in candidates if label in (item.Label, item.Name)]
         if not named:
             known = ", ".join(f"'{item.Label}'" for item in candidates) or "none"
-            raise InputError(f"{path} has no object '{label}' with faces; it has {known}")
+            raise InputError(f"{path} has no object '{label}' with faces; it has {known}.")
         return named[0]
     whole = [item for item in candidates if not any(hasattr(user, "Shape") for user in item.InList)]
     if not whole:
-        raise InputError(f"{path} has no object with faces")
+        raise InputError(f"{path} has no object with faces.")
     if len(whole) > 1:
         known = ", ".join(f"'{item.Label}'" for item in whole)
-        raise InputError(f"{path} holds several objects: pick one with --object, of {known}")
+        raise InputError(f"{path} holds several objects: pick one with --object, of {known}.")
     return whole[0]
 
 
 def check_output(path: Path) -> None:
     """Refuse a model format that cannot be written (InputError)."""
     if path.suffix.lower() not in OUTPUT_FORMATS:
-        raise InputError(f"the output {path} is of an unknown format: use .step, .brep or .FCStd")
+        raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
 
 
 def write(model: Model, path: Path) -> None:
@@ -178,16 +178,16 @@ def _write_step(model: Model, path: Path) -> None:
     try:
         model.shape.exportStep(str(path))
     except (OSError, RuntimeError, Part.OCCError) as error:
-        raise RefusedError(f"the STEP file could not be written: {error}") from error
+        raise RefusedError(f"The STEP file could not be written: {error}.") from error
     if not path.exists() or not step_text.is_complete(path):
-        raise RefusedError("the STEP file could not be written whole: is the disk full?")
+        raise RefusedError("The STEP file could not be written whole: is the disk full?")
     decoration = replace(model.decoration, product=model.label)
     path.write_text(step_text.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape)), "utf-8")
     copy = Part.read(str(path))
     if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):
-        raise RefusedError("the STEP file does not hold all faces of the result: write .brep or .FCStd")
+        raise RefusedError("The STEP file does not hold all faces of the result: write .brep or .FCStd.")
     if not copy.isValid():
-        raise RefusedError("the STEP file does not read back as a valid shape: write .brep or .FCStd")
+        raise RefusedError("The STEP file does not read back as a valid shape: write .brep or .FCStd.")
 
 
 def _bodies(shape: Part.Shape) -> int:
@@ -205,13 +205,13 @@ def _write_document(model: Model, path: Path) -> None:
         document.recompute()
         document.saveAs(str(path))
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
-        raise RefusedError(f"the document could not be written: {error}") from error
+        raise RefusedError(f"The document could not be written: {error}.") from error
     finally:
         FreeCAD.closeDocument(document.Name)
     if not zipfile.is_zipfile(path):
-        raise RefusedError("the document could not be written whole: is the disk full?")
+        raise RefusedError("The document could not be written whole: is the disk full?")
     if model.decoration.colours:
         document_colours.add(path, name, model.decoration.colours)
     with zipfile.ZipFile(path) as archive:
         if archive.testzip() is not None:
-            raise RefusedError("the document could not be written whole: is the disk full?")
+            raise RefusedError("The document could not be written whole: is the disk full?")

@@ -37,10 +37,10 @@ def read(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointClo
     InputError : a file is missing, damaged, of an unknown format, or holds no scan; the unit is unknown
     """
     if unit not in MILLIMETRES:
-        raise InputError(f"the scan unit '{unit}' is unknown: use one of {', '.join(MILLIMETRES)}")
+        raise InputError(f"The scan unit '{unit}' is unknown: use one of {', '.join(MILLIMETRES)}.")
     files = [paths] if isinstance(paths, (str, Path)) else list(paths)
     if not files:
-        raise InputError("no scan file was named")
+        raise InputError("No scan file was named.")
     clouds = [_read_one(Path(path)) for path in files]
     points = np.concatenate([cloud.points for cloud in clouds]) * MILLIMETRES[unit]
     return PointCloud(points, sum(cloud.dropped for cloud in clouds), unit)
@@ -49,17 +49,17 @@ def read(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointClo
 def _read_one(path: Path) -> PointCloud:
     reader = _READERS.get(path.suffix.lower())
     if path.is_dir():
-        raise InputError(f"the scan {path} is a folder: name a file")
+        raise InputError(f"The scan {path} is a folder: name a file.")
     if not path.exists():
-        raise InputError(f"the scan {path} does not exist")
+        raise InputError(f"The scan {path} does not exist.")
     if reader is None:
-        raise InputError(f"the scan {path} is of an unknown format: use one of {' '.join(FORMATS)}")
+        raise InputError(f"The scan {path} is of an unknown format: use one of {' '.join(FORMATS)}.")
     try:
         if path.stat().st_size == 0:
-            raise InputError(f"the scan {path} is empty")
+            raise InputError(f"The scan {path} is empty.")
         rows = reader(path)
     except OSError as error:
-        raise InputError(f"the scan {path} cannot be read: {error.strerror or error}") from error
+        raise InputError(f"The scan {path} cannot be read: {error.strerror or error}.") from error
     return _usable(path, rows)
 
 
@@ -70,9 +70,9 @@ def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
     dropped = int(len(rows) - len(points))
     if len(points) == 0:
         lost = f" (its {dropped} rows are not finite numbers)" if dropped else ""
-        raise InputError(f"the scan {path} holds no points{lost}: nothing can be registered to it")
+        raise InputError(f"The scan {path} holds no points{lost}: nothing can be registered to it.")
     if len(points) == 1:
-        raise InputError(f"the scan {path} holds a single point: a scan needs many")
+        raise InputError(f"The scan {path} holds a single point: a scan needs many.")
     if not np.ptp(points, axis=0).any():
-        raise InputError(f"the scan {path} is no scan: all its {len(points)} points are the same")
+        raise InputError(f"The scan {path} is no scan: all its {len(points)} points are the same.")
     return PointCloud(points, dropped)

@@ -62,7 +62,7 @@ def _header(path: Path, data: bytes) -> _Header:
     mark = data.find(b"\nDATA ", 0, _LONGEST_HEADER)
     newline = data.find(b"\n", mark + 1)
     if mark < 0 or newline < 0:
-        raise InputError(f"the scan {path} is not a PCD file, or its header is cut off")
+        raise InputError(f"The scan {path} is not a PCD file, or its header is cut off.")
     lines = [line.split() for line in data[:newline].decode("latin-1").splitlines()]
     entries = {words[0].upper(): words[1:] for words in lines if words and not words[0].startswith("#")}
     try:
@@ -74,11 +74,11 @@ def _header(path: Path, data: bytes) -> _Header:
         header = _Header(names, kinds, counts, points, entries["DATA"][0].lower(), newline + 1)
         usable = header.dtype.itemsize > 0 and len(names) == len(kinds) and points >= 0
     except (KeyError, IndexError, ValueError, TypeError) as error:
-        raise InputError(f"the scan {path} is damaged: its PCD header is not complete") from error
+        raise InputError(f"The scan {path} is damaged: its PCD header is not complete.") from error
     if not usable or header.encoding not in ("ascii", "binary", "binary_compressed"):
-        raise InputError(f"the scan {path} is damaged: its PCD header makes no sense")
+        raise InputError(f"The scan {path} is damaged: its PCD header makes no sense.")
     if not set(_AXES) <= set(names):
-        raise InputError(f"the scan {path} is damaged: its points have no x, y and z")
+        raise InputError(f"The scan {path} is damaged: its points have no x, y and z.")
     return header
 
 
@@ -93,7 +93,7 @@ def _ascii(path: Path, data: bytes, header: _Header) -> NDArray[np.float64]:
     try:
         return np.loadtxt(lines[: header.points], usecols=columns, ndmin=2, comments=None)
     except ValueError as error:
-        raise InputError(f"the scan {path} is damaged: a point is not made of numbers") from error
+        raise InputError(f"The scan {path} is damaged: a point is not made of numbers.") from error
 
 
 def _compressed(path: Path, header: _Header) -> NDArray[np.float64]:
@@ -102,9 +102,9 @@ def _compressed(path: Path, header: _Header) -> NDArray[np.float64]:
     with open3d.utility.VerbosityContextManager(open3d.utility.VerbosityLevel.Error):
         cloud = open3d.t.io.read_point_cloud(str(path), format="pcd")
     if "positions" not in cloud.point or len(cloud.point["positions"]) != header.points:
-        raise InputError(f"the scan {path} is damaged or cut off: its compressed points cannot be unpacked")
+        raise InputError(f"The scan {path} is damaged or cut off: its compressed points cannot be unpacked.")
     return cloud.point["positions"].numpy().astype(np.float64)
 
 
 def _truncated(path: Path, promised: int, found: int) -> InputError:
-    return InputError(f"the scan {path} is cut off: its header promises {promised} points, {found} are there")
+    return InputError(f"The scan {path} is cut off: its header promises {promised} points, {found} are there.")

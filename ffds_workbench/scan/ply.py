@@ -46,12 +46,12 @@ def read(path: Path) -> NDArray[np.float64]:
             break
         before.append(element)
     else:
-        raise InputError(f"the scan {path} has no vertices: nothing can be registered to it")
+        raise InputError(f"The scan {path} has no vertices: nothing can be registered to it.")
     names = [name for name, _ in element.properties]
     if not {"x", "y", "z"} <= set(names):
-        raise InputError(f"the scan {path} is damaged: its vertices have no x, y and z")
+        raise InputError(f"The scan {path} is damaged: its vertices have no x, y and z.")
     if element.has_list or len(set(names)) < len(names) or any(other.has_list for other in before):
-        raise InputError(f"the scan {path} has vertices of an unusual layout: save it as plain points")
+        raise InputError(f"The scan {path} has vertices of an unusual layout: save it as plain points.")
     if encoding == "ascii":
         return _ascii(path, data[start:], element, sum(other.count for other in before), names)
     order = _ORDER[encoding]
@@ -69,7 +69,7 @@ def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
     end = data.find(b"end_header", 0, _LONGEST_HEADER)
     newline = data.find(b"\n", end)
     if not data.startswith(b"ply") or end < 0 or newline < 0:
-        raise InputError(f"the scan {path} is not a PLY file, or its header is cut off")
+        raise InputError(f"The scan {path} is not a PLY file, or its header is cut off.")
     encoding = ""
     elements: list[_Element] = []
     try:
@@ -84,9 +84,9 @@ def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
             elif words[:1] == ["property"]:
                 elements[-1].properties.append((words[2], _TYPES[words[1]]))
     except (IndexError, KeyError, ValueError) as error:
-        raise InputError(f"the scan {path} is damaged: its PLY header has the line '{line.strip()[:60]}'") from error
+        raise InputError(f"The scan {path} is damaged: its PLY header has the line '{line.strip()[:60]}'.") from error
     if encoding != "ascii" and encoding not in _ORDER:
-        raise InputError(f"the scan {path} is damaged: its PLY header names no known format")
+        raise InputError(f"The scan {path} is damaged: its PLY header names no known format.")
     return encoding, elements, newline + 1
 
 
@@ -101,8 +101,8 @@ def _ascii(path: Path, data: bytes, element: _Element, skip: int, names: list[st
     try:
         return np.loadtxt(lines, usecols=[names.index(axis) for axis in "xyz"], ndmin=2, comments=None)
     except ValueError as error:
-        raise InputError(f"the scan {path} is damaged: a vertex is not made of numbers") from error
+        raise InputError(f"The scan {path} is damaged: a vertex is not made of numbers.") from error
 
 
 def _truncated(path: Path, promised: int, found: int) -> InputError:
-    return InputError(f"the scan {path} is cut off: its header promises {promised} points, {found} are there")
+    return InputError(f"The scan {path} is cut off: its header promises {promised} points, {found} are there.")

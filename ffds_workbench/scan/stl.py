@@ -27,10 +27,10 @@ def read(path: Path) -> NDArray[np.float64]:
     elif data.lstrip()[:5].lower() == b"solid":
         corners = _ascii(path, data)
     elif count > 0 and len(data) > _HEADER:
-        raise InputError(f"the scan {path} is cut off or no STL file: it promises {count} triangles and its length "
-                         f"does not fit")
+        raise InputError(f"The scan {path} is cut off or no STL file: it promises {count} triangles and its length "
+                         f"does not fit.")
     else:
-        raise InputError(f"the scan {path} is not an STL file")
+        raise InputError(f"The scan {path} is not an STL file.")
     _, first = np.unique(corners, axis=0, return_index=True)
     return corners[np.sort(first)]
 
@@ -38,9 +38,9 @@ def read(path: Path) -> NDArray[np.float64]:
 def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
     lines = [line.split() for line in data.decode("latin-1").splitlines()]
     if not any(words[:1] and words[0].lower() == "endsolid" for words in lines[-3:]):
-        raise InputError(f"the scan {path} is cut off: its STL text has no end")
+        raise InputError(f"The scan {path} is cut off: its STL text has no end.")
     corners = [words[1:4] for words in lines if words and words[0].lower() == "vertex"]
     try:
         return np.array(corners, dtype=np.float64).reshape(-1, 3)
     except ValueError as error:
-        raise InputError(f"the scan {path} is damaged: a corner is not made of three numbers") from error
+        raise InputError(f"The scan {path} is damaged: a corner is not made of three numbers.") from error

@@ -35,7 +35,7 @@ def read(path: Path) -> NDArray[np.float64]:
         promised = int(numbered[0][1])
         numbered = numbered[1:]
     if not numbered:
-        raise InputError(f"the scan {path} is no text of points: no line starts with a number")
+        raise InputError(f"The scan {path} is no text of points: no line starts with a number.")
     lines = [line for _, line in numbered]
     separator, decimal_comma = _layout(lines)
     columns = _columns(header, separator)
@@ -43,8 +43,8 @@ def read(path: Path) -> NDArray[np.float64]:
         lines = [line.replace(",", ".") for line in lines]
     rows = _parse(path, lines, [number for number, _ in numbered], separator, columns)
     if promised is not None and len(rows) < promised:
-        raise InputError(f"the scan {path} is cut off: its first line promises {promised} points, "
-                         f"{len(rows)} are there")
+        raise InputError(f"The scan {path} is cut off: its first line promises {promised} points, "
+                         f"{len(rows)} are there.")
     return rows
 
 
@@ -53,7 +53,7 @@ def _text(path: Path) -> str:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace")
     if b"\x00" in data[:4096]:
-        raise InputError(f"the scan {path} is not a text of points: it holds binary data")
+        raise InputError(f"The scan {path} is not a text of points: it holds binary data.")
     return data.decode("utf-8-sig", errors="replace")
 
 
@@ -125,8 +125,8 @@ def _parse_slowly(path: Path, lines: list[str], numbers: list[int], separator: s
     for row, (line, number) in enumerate(zip(lines, numbers, strict=True)):
         fields = [field.strip().strip("\"'") for field in line.split(separator)]
         if len(fields) <= max(columns):
-            raise InputError(f"the scan {path} is damaged or no text of points: line {number} has fewer than "
-                             f"{max(columns) + 1} values")
+            raise InputError(f"The scan {path} is damaged or no text of points: line {number} has fewer than "
+                             f"{max(columns) + 1} values.")
         for axis, column in enumerate(columns):
             rows[row, axis] = _number(path, fields[column], number)
     return rows
@@ -138,5 +138,5 @@ def _number(path: Path, field: str, line_number: int) -> float:
     try:
         return float(field)
     except ValueError as error:
-        raise InputError(f"the scan {path} is damaged or no text of points: line {line_number} holds "
-                         f"'{field[:30]}' where a number belongs") from error
+        raise InputError(f"The scan {path} is damaged or no text of points: line {line_number} holds "
+                         f"'{field[:30]}' where a number belongs.") from error

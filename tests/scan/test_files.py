@@ -16,7 +16,8 @@ POINTS = np.random.default_rng(1).uniform(-50, 50, (40, 3)) + (123456.789, 0, 0)
 STRUCT = {"binary_little_endian": "<", "binary_big_endian": ">"}
 
 
-def ply(points: np.ndarray, encoding: str, kind: str = "double", extra: bool = False, promised: int | None = None) -> bytes:
+def ply(points: np.ndarray, encoding: str, kind: str = "double", extra: bool = False,
+        promised: int | None = None) -> bytes:
     lines = ["ply", f"format {encoding} 1.0", "comment made by a test",
              f"element vertex {len(points) if promised is None else promised}"]
     lines += [f"property {kind} {axis}" for axis in "xyz"]
@@ -26,7 +27,8 @@ def ply(points: np.ndarray, encoding: str, kind: str = "double", extra: bool = F
     data = "\n".join([*lines, "end_header", ""]).encode()
     for point in points:
         if encoding == "ascii":
-            data += (("7 " if extra else "") + " ".join(map(repr, map(float, point))) + (" 0.5" if extra else "") + "\n").encode()
+            row = " ".join(map(repr, map(float, point)))
+            data += (f"7 {row} 0.5\n" if extra else f"{row}\n").encode()
         else:
             order, code = STRUCT[encoding], {"double": "3d", "float": "3f"}[kind]
             data += struct.pack(order + "B", 7) if extra else b""
