@@ -16,13 +16,13 @@ from .paper_case import SIZE, PaperCase, lifted, sheet
 from .paper_methods import METHODS, TITLES, deformed
 
 _EXAGGERATED = 2.5
-_ELEVATION, _AZIMUTH, _ZOOM = 26, -58, 1.2
+_ELEVATION, _AZIMUTH, _ZOOM = 26, -58, 1.06
 _CORNER, _SEAM = 7.0, (18.0, 16.0, 57.0, 54.0)
 
 
 def lattices(folder: Path, name: str = "figure_3") -> str:
     """Figure 3: the control points of both methods on the same face."""
-    drawing = style.figure(10.5, 4.6)
+    drawing = style.figure(10.5, 4.3)
     face = sheet()
     control = displacement_lattice(face.surface, (5, 5))
     on_face = face.surface.on_grid(greville(control.knots_u), greville(control.knots_v))
@@ -48,7 +48,7 @@ def before_and_after(case: PaperCase, folder: Path, name: str) -> str:
     u, v, _ = ffds.equidistant_grid(sheet(), 36)
     source = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
     before = sheet().surface.on_grid(greville(result.displacement.knots_u), greville(result.displacement.knots_v))
-    drawing = style.figure(11, 5.0)
+    drawing = style.figure(11, 4.3)
     shown = case.target[np.random.default_rng(0).permutation(len(case.target))[:6000]]
     for k, title in enumerate(("before (heights × 2.5)", "after (heights × 2.5)")):
         axes = _axes(drawing, 1, 2, k + 1, title)

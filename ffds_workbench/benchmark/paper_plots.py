@@ -58,12 +58,12 @@ def accuracies(rows: Sequence[Row], case: str, folder: Path, name: str) -> str:
 
 
 def _curves(axes: Axes, rows: Sequence[Row], key: str, total: bool) -> None:
-    for method, title in TITLES.items():
+    for method in ("ffd_hsu", "ffds", "robust"):
         n = [row["control_points_per_direction"] for row in rows]
         x = [k ** (3 if method == "ffd_hsu" else 2) for k in n] if total else n
         axes.plot(x, [row[method][key] for row in rows], color=style.COLOURS[method], marker=style.MARKERS[method],
-                  markersize=7 if method == "ffd_hsu" else 4, label=title,
-                  markerfacecolor="none" if method == "ffd_hsu" else None)
+                  markersize=8 if method == "ffd_hsu" else 4, linewidth=3 if method == "ffd_hsu" else 1.5,
+                  markerfacecolor="none" if method == "ffd_hsu" else None, label=TITLES[method])
     axes.set_yscale("log")
     if total:
         axes.set_xscale("log")
