@@ -74,7 +74,7 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
     anchors = [finder(point) for point in points]
     held = np.array([anchor is not None for anchor in anchors])
     if not held.any():
-        raise RefusedError("no pose of the path is near the nominal model: is the path in mm, and in the model's frame?")
+        raise RefusedError("No pose of the path is near the nominal model: is the path in mm, and in the model's frame?")
     origin, target, rotation = points.copy(), points.copy(), np.tile(np.eye(3), (len(points), 1, 1))
     for edge in sorted({anchor.edge for anchor in anchors if anchor and anchor.edge is not None}):
         rows = np.array([i for i, anchor in enumerate(anchors) if anchor and anchor.edge == edge])
@@ -138,7 +138,7 @@ def _edge_motion(nominal: Weldment, as_built: Weldment, edge: int, fractions: Ar
 def _face_motion(nominal: Weldment, as_built: Weldment, face: int, uv: tuple[float, float]) -> tuple[Array, Array, Array]:
     ranges = [np.array(model.faces[face].ParameterRange) for model in (nominal, as_built)]
     if np.abs(ranges[0] - ranges[1]).max() > _SAME_PARAMETERS * np.abs(np.diff(ranges[0])[[0, 2]]).max():
-        raise RefusedError(f"Face{face + 1} has other parameters in the as-built model: use the model that register wrote")
+        raise RefusedError(f"Face{face + 1} has other parameters in the as-built model: use the model that register wrote.")
     places = [_tangent_plane(model.faces[face], *uv) for model in (nominal, as_built)]
     # The rotation nearest to the map of the tangent planes, by polar decomposition.
     left, _, right = np.linalg.svd(places[1][1] @ np.linalg.inv(places[0][1]))

@@ -122,7 +122,7 @@ def refuse_branches(weldment: Weldment, stretches: Sequence[Stretch]) -> None:
     for end in ends:
         here = frozenset({end.stretch, *(other.stretch for other in _meeting(end, ends))})
         if len(here) > 2:
-            raise RefusedError(_branching(stretches, here) + ": name the edges of one path")
+            raise RefusedError(_branching(stretches, here) + ": name the edges of one path.")
 
 
 def _meeting(end: _End, ends: Sequence[_End]) -> list[_End]:
@@ -190,7 +190,7 @@ def _next(weldment: Weldment, edge: int, vertex: int, corner: float) -> int | No
     chosen = with_face or candidates
     if len(chosen) > 1:
         names = " and ".join(f"Edge{other + 1}" for other in chosen)
-        raise RefusedError(f"the seam branches after Edge{edge + 1}: {names} both go on from it; name the edges one by one")
+        raise RefusedError(f"The seam branches after Edge{edge + 1}: {names} both go on from it; name the edges one by one.")
     return chosen[0] if chosen else None
 
 

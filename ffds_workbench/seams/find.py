@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError, RefusedError
-from .chains import Seam, Stretch, directed, grow, join, refuse_branches
+from .chains import Seam, Stretch, grow, join, refuse_branches
 from .joints import find_joints
 from .settings import SeamSettings
 from .weldment import Weldment
@@ -46,7 +46,7 @@ def named_seams(weldment: Weldment, names: Sequence[str], settings: SeamSettings
     """
     edges = list(dict.fromkeys(weldment.edge_index(name) for name in names))
     if not edges:
-        raise InputError("name at least one edge for the seam")
+        raise InputError("Name at least one edge for the seam.")
     for edge in edges:
         weldment.sides(edge)
     if chain:
@@ -55,17 +55,17 @@ def named_seams(weldment: Weldment, names: Sequence[str], settings: SeamSettings
     for edge in edges:
         joints, covered = _joints_on(weldment, edge, tolerance)
         if _MOST_OF_IT <= covered < _ALL_OF_IT:
-            notes.append(f"Edge{edge + 1} lies on another part over {covered:.0%} of its length: the seam runs there alone")
+            notes.append(f"Edge{edge + 1} lies on another part over {covered:.0%} of its length: the seam runs there alone.")
         stretches += joints if covered >= _MOST_OF_IT else [Stretch(edge, 0.0, 1.0, weldment.sides(edge))]
     refuse_branches(weldment, stretches)
     seams, branchings = join(weldment, stretches, settings.corner)
     if branchings:
-        raise RefusedError(branchings[0] + ": name the edges of one path")
+        raise RefusedError(branchings[0] + ": name the edges of one path.")
     for seam in seams:
         length = seam_length(weldment, seam)
         if length < settings.min_length:
-            raise RefusedError(f"{seam.name} is only {length:.2g} mm long: a seam needs at least {settings.min_length:g} mm")
-    return _directed(weldment, seams, settings, notes)
+            raise RefusedError(f"{seam.name} is only {length:.2g} mm long: a seam needs at least {settings.min_length:g} mm.")
+    return FoundSeams(tuple(seams), tuple(notes))
 
 
 def joint_seams(weldment: Weldment, tolerance: float, settings: SeamSettings, names: Sequence[str] = ()) -> FoundSeams:
@@ -77,9 +77,9 @@ def joint_seams(weldment: Weldment, tolerance: float, settings: SeamSettings, na
     RefusedError : nothing is found
     """
     if not 0.0 < tolerance <= 50.0:
-        raise InputError(f"the tolerance for joints must be a length between 0 and 50 mm, not {tolerance:g}")
+        raise InputError(f"The tolerance for joints must be a length between 0 and 50 mm, not {tolerance:g}.")
     if len(weldment.parts) < 2:
-        raise RefusedError("the model is a single part, so no part lies on another: name the edges of the seam")
+        raise RefusedError("The model is a single part, so no part lies on another: name the edges of the seam.")
     wanted = {weldment.edge_index(name) for name in names}
     stretches, left_out = find_joints(weldment, tolerance, None, settings.min_length)
     seams, branchings = join(weldment, stretches, settings.corner)
@@ -89,16 +89,11 @@ def joint_seams(weldment: Weldment, tolerance: float, settings: SeamSettings, na
         if missing:
             edge = min(missing)
             raise RefusedError(f"Edge{edge + 1} lies on no other part within {tolerance:g} mm: use a larger tolerance "
-                               "or name it without one")
+                               "or name it without one.")
     if not seams:
-        reason = f": {left_out[0]}" if left_out else ""
-        raise RefusedError(f"no part lies on another within {tolerance:g} mm{reason}")
-    return _directed(weldment, seams, settings, (*left_out, *branchings))
-
-
-def _directed(weldment: Weldment, seams: Sequence[Seam], settings: SeamSettings, notes: Sequence[str]) -> FoundSeams:
-    turned = tuple(directed(weldment, seam, settings.start, settings.reverse) for seam in seams)
-    return FoundSeams(turned, tuple(notes))
+        reason = f": {left_out[0].rstrip('.')}" if left_out else ""
+        raise RefusedError(f"No part lies on another within {tolerance:g} mm{reason}.")
+    return FoundSeams(tuple(seams), (*left_out, *(f"{branching}." for branching in branchings)))
 
 
 def _joints_on(weldment: Weldment, edge: int, tolerance: float) -> tuple[list[Stretch], float]:

@@ -30,7 +30,7 @@ def torch_frames(tangents: Array, n1: Array, n2: Array) -> Array:
     out = out - np.einsum("ij,ij->i", out, tangents)[:, None] * tangents
     lengths = np.linalg.norm(out, axis=1, keepdims=True)
     if lengths.min() < _LEAST_SUM:
-        raise RefusedError("the two faces of the seam lie back to back, so there is no torch direction between them")
+        raise RefusedError("The two faces of the seam lie back to back, so there is no torch direction between them.")
     z = -out / lengths
     return np.stack([tangents, np.cross(z, tangents), z], axis=2)
 

@@ -62,7 +62,7 @@ def find_joints(weldment: Weldment, tolerance: float, edges: Iterable[int] | Non
             if length >= min_length:
                 found.append((stretch, length))
             elif length > 4.0 * tolerance:
-                left_out.append(f"{stretch.name} lies on another part over {length:.2g} mm only, too short for a seam")
+                left_out.append(f"{stretch.name} lies on another part over {length:.2g} mm only, too short for a seam.")
     return _each_once(weldment, found, tolerance), left_out
 
 

@@ -14,7 +14,7 @@ from .chains import Seam
 from .offsets import Offsets, nominal_stations, offsets
 from .settings import SeamSettings
 from .stations import Stations, stations
-from .trust import NO_REPORT, Trust, doubts
+from .trust import NO_REPORT, Trust, doubts, observed_share
 from .weldment import Weldment
 
 
@@ -39,7 +39,7 @@ class SeamLimits:
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             if not (math.isfinite(value) and value >= 0.0):
-                raise InputError(f"the limit for {name} must be a number of at least 0, not {value:g}")
+                raise InputError(f"The limit for {name} must be a number of at least 0, not {value:g}.")
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class MeasuredSeam:
     nominal, offsets : the paired nominal stations and the differences; None without a nominal model
     flags : (n,) "observed", "bridged", "carried" or "nominal"
     bands : (n,) 95 % band in mm, NaN where unknown
-    doubts : a sentence if a part of it was not observed; None if all was, or without a registration's report
+    reported : whether a registration's report says of its flags
     """
 
     stations: Stations
@@ -60,12 +60,22 @@ class MeasuredSeam:
     offsets: Offsets | None
     flags: Array
     bands: Array
-    doubts: str | None = None
+    reported: bool = False
 
     @property
     def name(self) -> str:
         """The edges it runs along."""
         return self.stations.seam.name
+
+    @property
+    def observed(self) -> float | None:
+        """Share of its length that the scan observed, 0…1; None without a registration's report."""
+        return observed_share(self.flags, self.stations.places.arc_length) if self.reported else None
+
+    @property
+    def doubts(self) -> str | None:
+        """A sentence if a part of it was not observed."""
+        return doubts(self.name, self.flags, self.stations.places.arc_length) if self.reported else None
 
     def largest(self) -> dict[str, float]:
         """Largest absolute values by the names of the limits, in mm and degrees; only those that are known."""
@@ -89,8 +99,7 @@ def measure(as_built: Weldment, seam: Seam, settings: SeamSettings, nominal: Wel
     """Sample a seam; compare it with the nominal one, and look up what a registration's report says of it."""
     found = stations(as_built, seam, settings)
     flags, bands = (trust or NO_REPORT).along(found)
-    doubt = None if trust is None else doubts(seam.name, flags, found.places.arc_length)
     if nominal is None:
-        return MeasuredSeam(found, None, None, flags, bands, doubt)
+        return MeasuredSeam(found, None, None, flags, bands, trust is not None)
     before = nominal_stations(nominal, as_built, found, settings)
-    return MeasuredSeam(found, before, offsets(before, found), flags, bands, doubt)
+    return MeasuredSeam(found, before, offsets(before, found), flags, bands, trust is not None)

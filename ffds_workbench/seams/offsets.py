@@ -46,11 +46,11 @@ def check_pair(nominal: Weldment, as_built: Weldment) -> None:
     a, b = nominal.topology, as_built.topology
     for kind in ("faces", "edges", "vertices"):
         if a.counts[kind] != b.counts[kind]:
-            raise InputError(f"the nominal model has {a.counts[kind]} {kind} and the as-built one {b.counts[kind]}: "
-                             "name the nominal model from which the as-built one was made")
+            raise InputError(f"The nominal model has {a.counts[kind]} {kind} and the as-built one {b.counts[kind]}: "
+                             "name the nominal model from which the as-built one was made.")
     if a.edge_faces != b.edge_faces:
-        raise InputError("the nominal and the as-built model are put together differently: name the nominal model from "
-                         "which the as-built one was made")
+        raise InputError("The nominal and the as-built model are put together differently: name the nominal model from "
+                         "which the as-built one was made.")
 
 
 def nominal_stations(nominal: Weldment, as_built: Weldment, stations: Stations, settings: SeamSettings) -> Stations:

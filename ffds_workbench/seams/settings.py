@@ -37,10 +37,10 @@ class SeamSettings:
         for name in ("step", "chord"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 1e-3):
-                raise InputError(f"the {name} of a seam must be at least 0.001 mm, not {value:g}")
+                raise InputError(f"The {name} of a seam must be at least 0.001 mm, not {value:g}.")
         for name in ("work_angle", "travel_angle"):
             value = getattr(self, name)
             if not abs(value) <= math.radians(80.0):
-                raise InputError(f"the {name.replace('_', ' ')} must lie within ±80°, not {math.degrees(value):g}°")
+                raise InputError(f"The {name.replace('_', ' ')} must lie within ±80°, not {math.degrees(value):g}°.")
         if self.start is not None and not all(map(math.isfinite, self.start)):
-            raise InputError("the start of a seam must be a point: three numbers in mm")
+            raise InputError("The start of a seam must be a point: three numbers in mm.")

@@ -91,9 +91,9 @@ class TaughtCsv:
         try:
             values = np.array([[float(row[column].replace(self.decimal, ".")) for column in columns] for row in self.rows])
         except (ValueError, IndexError) as error:
-            raise InputError(f"the path has a row without numbers for {', '.join(group)}") from error
+            raise InputError(f"The path has a row without numbers for {', '.join(group)}.") from error
         if not np.isfinite(values).all():
-            raise InputError(f"the path has a row without finite numbers for {', '.join(group)}")
+            raise InputError(f"The path has a row without finite numbers for {', '.join(group)}.")
         return values
 
     def _put(self, cells: list[list[str]], group: tuple[str, ...], values: Array, digits: int) -> None:
@@ -112,7 +112,7 @@ def read_csv(text: str) -> TaughtCsv:
     """
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines:
-        raise InputError("the path is empty")
+        raise InputError("The path is empty.")
     delimiter = max(";\t,", key=lambda mark: (mark in lines[0], -";\t,".index(mark)))
     rows = [tuple(cell.strip() for cell in row) for row in csv.reader(lines, delimiter=delimiter)]
     decimal = "," if delimiter != "," and any("," in cell for row in rows[1:] for cell in row) else "."
@@ -120,12 +120,12 @@ def read_csv(text: str) -> TaughtCsv:
     body = rows[1:] if header else rows
     names = tuple(cell.lower() for cell in header) if header else tuple(_WITHOUT_HEADER.get(len(rows[0]), "").split())
     if not set(_POSITION) <= set(names):
-        raise InputError("the path's columns are not known: it needs a header with x, y and z, or 3, 6 or 7 columns")
+        raise InputError("The path's columns are not known: it needs a header with x, y and z, or 3, 6 or 7 columns.")
     if not body:
-        raise InputError("the path has a header and no poses")
+        raise InputError("The path has a header and no poses.")
     path = TaughtCsv(names, header, tuple(body), delimiter, decimal)
     if set(_QUATERNION) <= set(names) and np.linalg.norm(path._numbers(_QUATERNION), axis=1).min() < 0.5:
-        raise InputError("the path has a row whose quaternion is zero")
+        raise InputError("The path has a row whose quaternion is zero.")
     return path
 
 

@@ -40,7 +40,7 @@ class TaughtKrl:
     def _poses(self) -> tuple[_Pose, ...]:
         found = [pose for number, text in enumerate(self.texts) for pose in _poses_of(number, text)]
         if not found:
-            raise InputError("the program has no poses with X, Y and Z")
+            raise InputError("The program has no poses with X, Y and Z.")
         return tuple(found)
 
     @property
@@ -77,6 +77,6 @@ def _poses_of(file: int, text: str) -> list[_Pose]:
         partly = 0 < len(values.keys() & set("ABC")) < 3
         if missing or partly:
             line = text.count("\n", 0, match.start()) + 1
-            raise InputError(f"line {line} of the program gives a part of a pose only, {match[0]}: write it in full")
+            raise InputError(f"Line {line} of the program gives a part of a pose only, {match[0]}: write it in full.")
         poses.append(_Pose(file, match.start(), match.end(), values))
     return poses

@@ -38,13 +38,17 @@ class Trust:
         return flags[stations.places.stretch], bands[stations.places.stretch]
 
     def _of(self, stretch: Stretch) -> _Entry:
-        """The edge's own entry, or the worst of the faces that the weld joins."""
-        if stretch.name in self.entries:
-            return self.entries[stretch.name]
-        faces = [self.entries.get(f"Face{face + 1}", _Entry("nominal", math.nan)) for face in stretch.faces]
-        return _Entry(max((entry.flag for entry in faces), key=FLAGS.index), max(entry.band for entry in faces))
+        """The edge's own entry. Where parts meet, one face of the edge is covered: the joined faces being seen counts too."""
+        faces = [self.entries.get(f"Face{face + 1}", _UNKNOWN) for face in stretch.faces]
+        joined = _Entry(max((entry.flag for entry in faces), key=FLAGS.index), max(entry.band for entry in faces))
+        own = self.entries.get(stretch.name)
+        if own is None:
+            return joined
+        flag = min(own.flag, joined.flag, key=FLAGS.index) if stretch.other else own.flag
+        return _Entry(flag, own.band if math.isfinite(own.band) else joined.band)
 
 
+_UNKNOWN = _Entry("nominal", math.nan)
 NO_REPORT = Trust({})
 
 
@@ -58,15 +62,15 @@ def read_trust(path: Path) -> Trust:
     try:
         report = json.loads(path.read_text("utf-8"))
     except OSError as error:
-        raise InputError(f"the report {path} cannot be read: {error.strerror}") from error
+        raise InputError(f"The report {path} cannot be read: {error.strerror}.") from error
     except ValueError as error:
-        raise InputError(f"the report {path} is not JSON: name the file that register wrote with --report") from error
+        raise InputError(f"The report {path} is not JSON: name the file that register wrote with --report.") from error
     if not isinstance(report, dict) or not isinstance(report.get("faces"), list):
-        raise InputError(f"the report {path} has no faces: name the file that register wrote with --report")
+        raise InputError(f"The report {path} has no faces: name the file that register wrote with --report.")
     try:
         return Trust({str(item["name"]): _entry(item) for item in [*report["faces"], *report.get("edges", [])]})
     except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"the report {path} has a face or edge without a sound name, flag and band") from error
+        raise InputError(f"The report {path} has a face or edge without a sound name, flag and band.") from error
 
 
 def _entry(item: Mapping[str, object]) -> _Entry:
@@ -76,13 +80,18 @@ def _entry(item: Mapping[str, object]) -> _Entry:
     return _Entry(flag, math.nan if band is None else float(band))  # type: ignore[arg-type]
 
 
+def observed_share(flags: Array, lengths: Array) -> float:
+    """Share of a seam's length that was observed, from flags (n,) and arc lengths (n,)."""
+    seen = (flags == "observed").astype(float)
+    return float((0.5 * (seen[1:] + seen[:-1]) * np.diff(lengths)).sum() / lengths[-1])
+
+
 def doubts(name: str, flags: Array, lengths: Array) -> str | None:
-    """A sentence if a part of a seam was not observed, from flags (n,) and arc lengths (n,)."""
-    unseen = flags != "observed"
-    if not unseen.any():
+    """A sentence if a part of a seam was not observed."""
+    unseen = flags[flags != "observed"]
+    if not len(unseen):
         return None
-    worst = max(set(flags[unseen].tolist()), key=FLAGS.index)
-    if unseen.all():
-        return f"{name} was not observed by the scan ({worst} over all its length): check it before welding"
-    share = float((0.5 * (unseen[1:].astype(float) + unseen[:-1]) * np.diff(lengths)).sum() / lengths[-1])
-    return f"{name} was not observed by the scan over {share:.0%} of its length ({worst}): check it before welding"
+    worst = max(set(unseen.tolist()), key=FLAGS.index)
+    share = 1.0 - observed_share(flags, lengths)
+    where = "all" if len(unseen) == len(flags) else f"{share:.0%} of"
+    return f"{name} was not observed by the scan over {where} its length ({worst}): check it before welding."

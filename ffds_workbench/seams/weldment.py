@@ -79,7 +79,7 @@ class Weldment:
         """
         number = name[4:] if name.startswith("Edge") else name
         if not number.isdecimal() or not 1 <= int(number) <= len(self.edges):
-            raise InputError(f"there is no {name}: the model has Edge1 to Edge{len(self.edges)}")
+            raise InputError(f"There is no {name}: the model has Edge1 to Edge{len(self.edges)}.")
         return int(number) - 1
 
     def sides(self, edge: int) -> tuple[int, int]:
@@ -92,15 +92,15 @@ class Weldment:
         """
         name = f"Edge{edge + 1}"
         if self.topology.degenerate[edge]:
-            raise RefusedError(f"{name} is a point (a pole or an apex) and no seam: name an edge with a length")
+            raise RefusedError(f"{name} is a point (a pole or an apex) and no seam: name an edge with a length.")
         faces = self.topology.edge_faces[edge]
         if not faces:
-            raise RefusedError(f"{name} has no adjacent faces: a torch direction needs two")
+            raise RefusedError(f"{name} has no adjacent faces: a torch direction needs two.")
         if len(faces) == 1:
             where = "is where a closed face meets itself" if (faces[0], edge) in self.topology.seams else "is open"
-            raise RefusedError(f"{name} {where} and has one adjacent face only: a torch direction needs two")
+            raise RefusedError(f"{name} {where} and has one adjacent face only: a torch direction needs two.")
         if len(faces) > 2:
-            raise RefusedError(f"{name} has {len(faces)} adjacent faces: a torch direction needs two")
+            raise RefusedError(f"{name} has {len(faces)} adjacent faces: a torch direction needs two.")
         return min(faces), max(faces)
 
     def curve(self, edge: int, fractions: Array) -> CurvePoints:
@@ -118,7 +118,7 @@ class Weldment:
         first = span * np.array([tuple(curve.getD1(t)[1]) for t in parameters])
         second = span**2 * np.array([tuple(curve.getD2(t)[2]) for t in parameters])
         if np.linalg.norm(first, axis=1).min() < 1e-9:
-            raise RefusedError(f"Edge{edge + 1} has no direction at some point: repair the edge first")
+            raise RefusedError(f"Edge{edge + 1} has no direction at some point: repair the edge first.")
         return CurvePoints(points, first, second)
 
     def normals_beside(self, face: int, edge: int, fractions: Array) -> Array:

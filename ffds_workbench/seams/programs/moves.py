@@ -39,9 +39,9 @@ class RobotSettings:
 
     def __post_init__(self) -> None:
         if not 0.01 <= self.velocity <= 2000.0:
-            raise InputError(f"the velocity must lie between 0.01 and 2000 mm/s, not {self.velocity:g}")
+            raise InputError(f"The velocity must lie between 0.01 and 2000 mm/s, not {self.velocity:g}.")
         if not 0.0 <= self.approach <= 2000.0:
-            raise InputError(f"the approach must lie between 0 and 2000 mm, not {self.approach:g}")
+            raise InputError(f"The approach must lie between 0 and 2000 mm, not {self.approach:g}.")
 
 
 def read_frame_choice(text: str) -> FrameChoice:
@@ -60,7 +60,7 @@ def read_frame_choice(text: str) -> FrameChoice:
     except ValueError:
         values = ()
     if len(values) != 6 or not all(map(math.isfinite, values)):
-        raise InputError(f"'{text}' is no tool or base: give a number, a name, or X,Y,Z,A,B,C in mm and degrees")
+        raise InputError(f"'{text}' is no tool or base: give a number, a name, or X,Y,Z,A,B,C in mm and degrees.")
     return values
 
 

@@ -65,7 +65,7 @@ def _choice(what: str, choice: FrameChoice, default: str, own: str) -> tuple[str
     if choice is None:
         return default, ""
     if isinstance(choice, int):
-        raise InputError(f"ABB controllers name their {what}s: give a name or X,Y,Z,A,B,C instead of {choice}")
+        raise InputError(f"ABB controllers name their {what}s: give a name or X,Y,Z,A,B,C instead of {choice}.")
     if isinstance(choice, str):
         return choice, ""
     pose = np.eye(4)[None]

@@ -43,6 +43,6 @@ def write_document(path: Path, seams: Sequence[SeamMoves], settings: RobotSettin
         document.recompute()
         document.saveAs(str(path))
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
-        raise RefusedError(f"the document could not be written: {error}") from error
+        raise RefusedError(f"The document could not be written: {error}.") from error
     finally:
         FreeCAD.closeDocument(document.Name)

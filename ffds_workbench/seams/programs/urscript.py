@@ -51,7 +51,7 @@ def _pose(what: str, choice: FrameChoice) -> str | None:
     if choice is None:
         return None
     if not isinstance(choice, tuple):
-        raise InputError(f"a URScript has no numbered or named {what}s: give X,Y,Z,A,B,C instead of {choice}")
+        raise InputError(f"A URScript has no numbered or named {what}s: give X,Y,Z,A,B,C instead of {choice}.")
     pose = np.eye(4)[None]
     pose[0, :3, :3], pose[0, :3, 3] = from_kuka_angles(np.array([choice[3:]]))[0], choice[:3]
     return pose_texts(pose)[0]
