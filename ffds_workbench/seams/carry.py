@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import Part
 
+from ..brep.files import Model
 from ..errors import InputError
 from ..output import check_writable, replacing
 from .attach import Motion, motion
@@ -45,7 +46,8 @@ class CarriedPath:
                 f"{np.degrees(self.largest_turn):.3f}°{left}.")
 
 
-def carry(nominal: Part.Shape, as_built: Part.Shape, path: Path, out: Path, inputs: Sequence[Path] = ()) -> CarriedPath:
+def carry(nominal: Model | Part.Shape | object, as_built: Model | Part.Shape | object, path: Path, out: Path,
+          inputs: Sequence[Path] = ()) -> CarriedPath:
     """Carry a CSV or KRL path along and write it in its own format; a .src takes its .dat with it.
 
     Raises
@@ -53,11 +55,11 @@ def carry(nominal: Part.Shape, as_built: Part.Shape, path: Path, out: Path, inpu
     InputError : the path cannot be read, or the models are no pair
     RefusedError : the path is nowhere near the model, or the disk is full
     """
-    sources, targets = _files(path, out)
+    sources, targets = _files(Path(path), Path(out))
     for target in targets:
         check_writable(target, (*inputs, *sources))
     taught = _read(sources)
-    before, after = Weldment(nominal), Weldment(as_built)
+    before, after = Weldment.of(nominal), Weldment.of(as_built)
     check_pair(before, after)
     moved = motion(before, after, taught.positions)
     with replacing(*targets) as temporary:

@@ -41,8 +41,8 @@ def draw(path: Path, plan: SeamPlan) -> None:
     plots = plots or [("opening, °", [_Curve("opening", np.inf, lambda seam: np.degrees(seam.stations.opening))])]
     figure = Figure(figsize=(14.5, 7.4), dpi=120, facecolor=_PAPER)
     FigureCanvasAgg(figure)
-    grid = figure.add_gridspec(len(plots), 2, width_ratios=(1.0, 1.25), left=0.02, right=0.985, top=0.86, bottom=0.09,
-                               hspace=0.16, wspace=0.12)
+    grid = figure.add_gridspec(len(plots), 2, width_ratios=(1.0, 1.25), left=0.02, right=0.985, top=0.86, bottom=0.1,
+                               hspace=0.3, wspace=0.12)
     total = sum(seam.stations.length for seam in plan.seams)
     title = f"{len(plan.seams)} weld seam{'s' * (len(plan.seams) != 1)}, {total:.0f} mm"
     figure.text(0.02, 0.95, title, fontsize=15, color=_INK, weight="bold", va="center")
@@ -179,6 +179,7 @@ def _arrow(axes: Any, line: Array, colour: str) -> None:
 
 def _legend(axes: Any, plan: SeamPlan) -> None:
     from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
 
     entries = [(_PASS, "solid", "within the limits"), (_FAIL, "solid", "beyond a limit"),
                (_UNJUDGED, "solid", "nothing to compare")]
@@ -187,9 +188,11 @@ def _legend(axes: Any, plan: SeamPlan) -> None:
                for colour, style, text in entries if colour in used]
     if any(seam.doubts for seam in plan.seams):
         handles.append(Line2D([], [], color=_MUTED, linewidth=2.6, linestyle=(0, (2, 1.2)), label="not wholly observed"))
+    flags = {flag for seam in plan.seams if seam.reported for flag in seam.flags.tolist()}
+    handles += [Patch(color=colour, label=flag) for flag, colour in _UNSEEN.items() if flag in flags]
     handles.append(Line2D([], [], color=_MUTED, marker="o", linestyle="none", markersize=5, label="start"))
-    axes.legend(handles=handles, frameon=False, fontsize=9, loc="lower left", labelcolor=_INK, ncols=len(handles),
-                bbox_to_anchor=(0.0, -0.07), borderaxespad=0.0, handlelength=1.8, columnspacing=1.4)
+    axes.legend(handles=handles, frameon=False, fontsize=9, loc="upper left", labelcolor=_INK, ncols=min(4, len(handles)),
+                bbox_to_anchor=(0.0, -0.01), borderaxespad=0.0, handlelength=1.8, columnspacing=1.4)
 
 
 def _view(towards: Array) -> Array:

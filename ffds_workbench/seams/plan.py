@@ -10,6 +10,7 @@ from typing import Any
 
 import Part
 
+from ..brep.files import Model
 from ..errors import InputError
 from ..output import check_writable, replacing
 from . import report
@@ -23,7 +24,7 @@ from .programs.rapid import rapid_text
 from .programs.urscript import urscript_text
 from .settings import SeamSettings
 from .table import csv_text
-from .trust import Trust
+from .trust import read_trust
 from .weldment import Weldment
 
 FORMATS = (".csv", ".src", ".mod", ".script", ".fcstd")
@@ -61,8 +62,8 @@ class SeamPlan:
         return report.report_record(self.seams, self.limits, self.notes)
 
 
-def plan_seams(shape: Part.Shape, edges: Sequence[str] = (), auto: float | None = None,
-               nominal: Part.Shape | None = None, chain: bool = False, trust: Trust | None = None,
+def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (), auto: float | None = None,
+               nominal: Model | Part.Shape | object | None = None, chain: bool = False, bands: str | Path | None = None,
                settings: SeamSettings | None = None, limits: SeamLimits | None = None) -> SeamPlan:
     """Find and measure the seams of an as-built model.
 
@@ -70,6 +71,8 @@ def plan_seams(shape: Part.Shape, edges: Sequence[str] = (), auto: float | None 
 
     Parameters
     ----------
+    as_built, nominal : models, shapes or document objects
+    bands : the JSON report of the registration, for what was observed and how sure it is
     edges : names, "EdgeN"; with ``auto`` only joints along these
     auto : find the joints of parts that lie within this distance (mm) of each other
     chain : add the edges that go on from the named ones along tangency
@@ -84,21 +87,22 @@ def plan_seams(shape: Part.Shape, edges: Sequence[str] = (), auto: float | None 
     if auto is not None and chain:
         raise InputError("Joints found by themselves are joined along tangency already: leave chain out.")
     settings = settings or SeamSettings()
-    as_built = Weldment(shape)
-    before = None if nominal is None else Weldment(nominal)
+    trust = None if bands is None else read_trust(Path(bands))
+    built = Weldment.of(as_built)
+    before = None if nominal is None else Weldment.of(nominal)
     if before is not None:
-        check_pair(before, as_built)
-    where = before or as_built
+        check_pair(before, built)
+    where = before or built
     found = named_seams(where, edges, settings, chain) if auto is None else joint_seams(where, auto, settings, edges)
-    seams = tuple(measure(as_built, directed(as_built, seam, settings.start, settings.reverse), settings, before, trust)
+    seams = tuple(measure(built, directed(built, seam, settings.start, settings.reverse), settings, before, trust)
                   for seam in found.seams)
     doubts = tuple(seam.doubts for seam in seams if seam.doubts)
-    return SeamPlan(shape, seams, limits or SeamLimits(), found.notes + doubts)
+    return SeamPlan(built.shape, seams, limits or SeamLimits(), found.notes + doubts)
 
 
-def check_seam_outputs(paths: Sequence[Path], inputs: Sequence[Path] = ()) -> None:
-    """Refuse outputs of seams that cannot be written, before any work (InputError)."""
-    targets = [target for path in paths for target in _targets(path)]
+def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), inputs: Sequence[Path] = ()) -> None:
+    """Refuse tables and programs (``outs``), or reports and pictures (``extra``), that cannot be written (InputError)."""
+    targets = [target for out in outs for target in _targets(out)] + [path for path in extra if path is not None]
     if len({target.resolve() for target in targets}) < len(targets):
         raise InputError("Two outputs have the same name: choose different ones.")
     for target in targets:
@@ -126,10 +130,8 @@ def write_seams(plan: SeamPlan, outs: Sequence[Path], robot: RobotSettings | Non
     InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
     RefusedError : the disk is full
     """
-    check_seam_outputs(outs, inputs)
+    check_seam_outputs(outs, (report_path, picture), inputs)
     extra = [path for path in (report_path, picture) if path is not None]
-    for path in extra:
-        check_writable(path, inputs)
     robot = robot or RobotSettings()
     paths = [moves(seam, robot) for seam in plan.seams]
     targets = [target for out in outs for target in _targets(out)] + extra

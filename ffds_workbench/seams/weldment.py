@@ -14,7 +14,8 @@ import FreeCAD
 import numpy as np
 import Part
 
-from ..brep import topology
+from ..brep import files, topology
+from ..brep.files import Model
 from ..errors import InputError, RefusedError
 from ..registration.splines import Array
 
@@ -58,6 +59,11 @@ class Weldment:
         self.shape = shape
         self.edges, self.faces = shape.Edges, shape.Faces
         self.topology = topology.read(shape)
+
+    @classmethod
+    def of(cls, model: Model | Part.Shape | object) -> Weldment:
+        """The weldment of a model, a shape, or a document object where it stands."""
+        return cls(model.shape if isinstance(model, Model) else files.from_object(model).shape)
 
     @cached_property
     def parts(self) -> tuple[tuple[int, ...], ...]:
