@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..splines import Array
+from .boundary import Borders
 from .problem import Problem
 from .raster import Jet, normals
 from .values import CellValues
@@ -48,6 +49,24 @@ def gather(problem: Problem, loads: Array, spans: Array | slice = slice(None)) -
     controls = problem.lattices.controls[spans].ravel()
     flat = loads.reshape(-1, 3)
     return np.stack([np.bincount(controls, weights=flat[:, k], minlength=problem.lattices.count) for k in range(3)], axis=1)
+
+
+def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
+    """m·(B δ) = offset at the visible borders."""
+    samples, m = borders.samples, borders.direction
+    basis, weight = samples.weights[0], borders.weight[:, None, None]
+    products = (weight * basis[:, :, None] * basis[:, None, :]).reshape(len(samples), 256)
+    rows, columns = np.repeat(samples.controls, 16, axis=1).ravel(), np.tile(samples.controls, 16).ravel()
+    position = problem.pattern.position(rows, columns)
+    blocks = np.zeros((problem.pattern.size, 3, 3))
+    for a in range(3):
+        for b in range(3):
+            value = (products * (m[:, a] * m[:, b])[:, None]).ravel()
+            blocks[:, a, b] = np.bincount(position, weights=value, minlength=problem.pattern.size)
+    right = np.zeros((problem.lattices.count, 3))
+    pull = (borders.weight * borders.offset)[:, None, None] * basis[:, :, None] * m[:, None, :]
+    np.add.at(right, samples.controls, pull)
+    return NormalEquations(blocks, right)
 
 
 def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array) -> NormalEquations:

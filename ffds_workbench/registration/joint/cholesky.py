@@ -1,102 +1,56 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cholesky factor of a sparse symmetric matrix, ordered by level sets so that it is block tridiagonal.
+"""Cholesky factor of the normal matrix over a tree of fronts, and the part of its inverse that variances need.
 
-A breadth-first search from the rim of the graph cuts the unknowns into levels that only touch their neighbours; every
-step is then a dense BLAS call on one level. The same form gives the entries of the inverse that lie on the pattern
-(selected inversion), which is where variances come from.
+Every front is a dense matrix, so that all work is in BLAS (the multifrontal method of Duff and Reid, ACM TOMS 9, 1983).
+The inverse is computed on the fronts alone, from the roots down (selected inversion; Takahashi, Fagan, Chin, 1973).
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.linalg import blas, lapack
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components, dijkstra
 
 from ..splines import Array
+from .dissection import Front
 from .lattice import Index
 
 
-@dataclass(frozen=True)
-class Levels:
-    """Order of the nodes, level by level.
+class FrontLayout:
+    """Where the 3 × 3 blocks of a pattern go in the dense matrices of the fronts."""
 
-    Attributes
-    ----------
-    order : (n,) nodes in their new order
-    place : (n,) new place of every node
-    start : (levels + 1,) first place of every level
-    of_node : (n,) level of every node
-    """
+    def __init__(self, fronts: list[Front], rows: Index, columns: Index) -> None:
+        """``rows`` and ``columns`` (blocks,) are the nodes of every block of the pattern."""
+        self.fronts = fronts
+        self.sizes = np.array([3 * (len(f.own) + len(f.border)) for f in fronts])
+        self.offset = np.concatenate([[0], np.cumsum(self.sizes**2)])
+        self.own_rows = [_triple(f.own) for f in fronts]
+        self.border_rows = [_triple(f.border) for f in fronts]
+        self.parent_places = [_triple(f.in_parent) for f in fronts]
+        front_of = np.empty(rows.max() + 1, dtype=np.intp)
+        for number, front in enumerate(fronts):
+            front_of[front.own] = number
+        home = np.minimum(front_of[rows], front_of[columns])
+        order = np.argsort(home, kind="stable")
+        bounds = np.searchsorted(home[order], np.arange(len(fronts) + 1))
+        place = np.empty(len(front_of), dtype=np.intp)
+        target = np.empty(len(rows), dtype=np.intp)
+        for number, front in enumerate(fronts):
+            place[front.own] = np.arange(len(front.own))
+            place[front.border] = len(front.own) + np.arange(len(front.border))
+            here = order[bounds[number] : bounds[number + 1]]
+            target[here] = self.offset[number] + 3 * (place[rows[here]] * self.sizes[number] + place[columns[here]])
+        inner = np.arange(3)[:, None] * self.sizes[home][:, None, None] + np.arange(3)
+        self.target = (target[:, None, None] + inner).ravel()
 
-    order: Index
-    place: Index
-    start: Index
-    of_node: Index
-
-
-def level_sets(graph: csr_matrix) -> Levels:
-    """Levels of every connected component, from a node at its rim, one component after the other."""
-    count, component = connected_components(graph, directed=False)
-    level = np.zeros(graph.shape[0], dtype=np.intp)
-    offset = 0
-    for k in range(count):
-        nodes = np.flatnonzero(component == k)
-        part = graph[nodes][:, nodes]
-        root = 0
-        for _ in range(2):
-            root = breadth_first_order(part, root, directed=False, return_predecessors=False)[-1]
-        distance = dijkstra(part, directed=False, indices=root, unweighted=True).astype(np.intp)
-        level[nodes] = offset + distance
-        offset += distance.max() + 1
-    order = np.argsort(level, kind="stable")
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    start = np.searchsorted(level[order], np.arange(offset + 1))
-    return Levels(order, place, start, level)
+    def matrix(self, flat: Array, number: int) -> Array:
+        """The dense matrix of one front as a view, rows of its own nodes first."""
+        n = self.sizes[number]
+        return flat[self.offset[number] : self.offset[number + 1]].reshape(n, n)
 
 
-class LevelLayout:
-    """Where the 3 × 3 blocks of a pattern go in the dense blocks of the levels."""
+class FrontCholesky:
+    """A = L Lᵀ, front by front."""
 
-    def __init__(self, rows: Index, columns: Index, graph: csr_matrix) -> None:
-        """``rows`` and ``columns`` (blocks,) are the nodes of every stored block, ``graph`` the pattern."""
-        self.levels = levels = level_sets(graph)
-        self.start = 3 * levels.start
-        row, column = levels.place[rows], levels.place[columns]
-        row_level, column_level = levels.of_node[rows], levels.of_node[columns]
-        size = np.diff(levels.start)
-        below = np.append(size[1:], 0)
-        area = 9 * np.stack([size * size, below * size], axis=1)
-        self.offset = np.concatenate([[0], np.cumsum(area.ravel())])
-        self.kept = np.flatnonzero((row_level == column_level) | (row_level == column_level + 1))
-        row, column = row[self.kept], column[self.kept]
-        row_level, column_level = row_level[self.kept], column_level[self.kept]
-        lower = row_level - column_level
-        i, j = 3 * (row - levels.start[row_level]), 3 * (column - levels.start[column_level])
-        width = 3 * size[column_level]
-        first = self.offset[2 * column_level + lower] + i * width + j
-        inner = np.arange(3)[:, None, None] * width + np.arange(3)[None, :, None]
-        self.target = (first + inner).transpose(2, 0, 1).ravel()
-
-    def dense(self, blocks: Array) -> tuple[list[Array], list[Array]]:
-        """Diagonal and sub-diagonal level blocks from the pattern's 3 × 3 blocks."""
-        flat = np.zeros(self.offset[-1])
-        flat[self.target] = blocks[self.kept].ravel()
-        size = np.diff(self.start)
-        diagonal, lower = [], []
-        for k, n in enumerate(size):
-            a, b, c = self.offset[2 * k : 2 * k + 3]
-            diagonal.append(flat[a:b].reshape(n, n))
-            lower.append(flat[b:c].reshape(-1, n))
-        return diagonal, lower[:-1]
-
-
-class LevelCholesky:
-    """A = L Lᵀ over the levels of a layout."""
-
-    def __init__(self, layout: LevelLayout, blocks: Array) -> None:
+    def __init__(self, layout: FrontLayout, blocks: Array) -> None:
         """Factor the matrix with the pattern's ``blocks`` (n, 3, 3).
 
         Raises
@@ -104,54 +58,54 @@ class LevelCholesky:
         numpy.linalg.LinAlgError : the matrix is not positive definite
         """
         self.layout = layout
-        diagonal, lower = layout.dense(blocks)
-        self.diagonal: list[Array] = []
-        self.lower: list[Array] = []
-        for k, block in enumerate(diagonal):
-            if k:
-                # F = E L⁻ᵀ, as the transposed triangular solve of Fortran-ordered arrays.
-                f = blas.dtrsm(1.0, self.diagonal[-1], lower[k - 1].T, lower=1, overwrite_b=1).T
-                self.lower.append(f)
-                block = block - f @ f.T
-            factor, info = lapack.dpotrf(block.T, lower=1, clean=1, overwrite_a=1)
+        flat = np.zeros(layout.offset[-1])
+        flat[layout.target] = blocks.ravel()
+        self.own: list[Array] = []
+        self.border: list[Array] = []
+        for number, front in enumerate(layout.fronts):
+            matrix, k = layout.matrix(flat, number), 3 * len(front.own)
+            factor, info = lapack.dpotrf(matrix[:k, :k].T, lower=1, clean=1)
             if info:
-                raise np.linalg.LinAlgError(f"the normal matrix is not positive definite (level {k})")
-            self.diagonal.append(factor)
+                raise np.linalg.LinAlgError("the normal matrix is not positive definite")
+            border = blas.dtrsm(1.0, factor, matrix[k:, :k].T, lower=1)
+            if front.parent >= 0:
+                places = layout.parent_places[number]
+                above = layout.matrix(flat, front.parent)
+                above[np.ix_(places, places)] += matrix[k:, k:] - border.T @ border
+            self.own.append(factor)
+            self.border.append(border)
 
     def solve(self, right: Array) -> Array:
         """x with A x = right, (3 nodes,) ordered node by node."""
-        order, start = self.layout.levels.order, self.layout.start
-        b = right.reshape(-1, 3)[order].ravel()
-        parts = []
-        for k, factor in enumerate(self.diagonal):
-            part = b[start[k] : start[k + 1]]
-            if k:
-                part = part - self.lower[k - 1] @ parts[-1]
-            parts.append(blas.dtrsv(factor, part, lower=1))
-        for k in range(len(parts) - 1, -1, -1):
-            part = parts[k]
-            if k + 1 < len(parts):
-                part = part - self.lower[k].T @ parts[k + 1]
-            parts[k] = blas.dtrsv(self.diagonal[k], part, lower=1, trans=1)
-        x = np.empty((len(order), 3))
-        x[order] = np.concatenate(parts).reshape(-1, 3)
-        return x.ravel()
+        layout, x = self.layout, right.copy()
+        for factor, border, own, rows in zip(self.own, self.border, layout.own_rows, layout.border_rows, strict=True):
+            part = blas.dtrsv(factor, x[own], lower=1)
+            x[own] = part
+            x[rows] -= part @ border
+        for number in range(len(self.own) - 1, -1, -1):
+            own = layout.own_rows[number]
+            part = x[own] - self.border[number] @ x[layout.border_rows[number]]
+            x[own] = blas.dtrsv(self.own[number], part, lower=1, trans=1)
+        return x
 
     def inverse_blocks(self) -> Array:
-        """The 3 × 3 blocks of A⁻¹ on the kept part of the pattern: (kept, 3, 3), by Takahashi's recursion."""
-        last = len(self.diagonal) - 1
-        flat = np.zeros(self.layout.offset[-1])
-        below = np.zeros((0, 0))
-        for k in range(last, -1, -1):
-            n = len(self.diagonal[k])
-            inverse = blas.dtrsm(1.0, self.diagonal[k], np.eye(n, order="F"), lower=1)
-            z = inverse.T @ inverse
-            a, b, c = self.layout.offset[2 * k : 2 * k + 3]
-            if k < last:
-                g = self.lower[k] @ inverse
-                zg = below @ g
-                flat[b:c] = -zg.ravel()
-                z += g.T @ zg
-            flat[a:b] = z.ravel()
-            below = z
-        return flat[self.layout.target].reshape(-1, 3, 3)
+        """The blocks of A⁻¹ on the pattern, (n, 3, 3)."""
+        layout = self.layout
+        flat = np.zeros(layout.offset[-1])
+        for number in range(len(layout.fronts) - 1, -1, -1):
+            front, z = layout.fronts[number], layout.matrix(flat, number)
+            k = 3 * len(front.own)
+            inverse = blas.dtrsm(1.0, self.own[number], np.eye(k, order="F"), lower=1)
+            z[:k, :k] = inverse.T @ inverse
+            if front.parent >= 0:
+                places = layout.parent_places[number]
+                z[k:, k:] = layout.matrix(flat, front.parent)[np.ix_(places, places)]
+                reach = self.border[number].T @ inverse
+                z[k:, :k] = -z[k:, k:] @ reach
+                z[:k, :k] -= reach.T @ z[k:, :k]
+                z[:k, k:] = z[k:, :k].T
+        return flat[layout.target].reshape(-1, 3, 3)
+
+
+def _triple(nodes: Index) -> Index:
+    return (3 * nodes[:, None] + np.arange(3)).ravel()

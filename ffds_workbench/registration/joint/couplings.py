@@ -19,6 +19,7 @@ from .settings import JointSettings
 from .sheet import SheetPairs
 
 _FROZEN = 1e9
+_PRIOR_SHARE = 1e-5
 _SMOOTHEST = 1e-9
 
 
@@ -31,6 +32,13 @@ class EdgeSamples:
     edge: Index
     length: Array
     direction: Array
+
+    def along(self, place: Array) -> Array:
+        """Unit directions of the edges through places (n, 3) on them, by central differences."""
+        after, before = np.roll(place, -1, axis=0), np.roll(place, 1, axis=0)
+        last, first = np.roll(self.edge, -1) != self.edge, np.roll(self.edge, 1) != self.edge
+        step = np.where(last[:, None], place, after) - np.where(first[:, None], place, before)
+        return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
 
 
 @dataclass(frozen=True)
@@ -82,8 +90,9 @@ class Couplings:
         return np.einsum("nx,nx->n", gap, normal)
 
 
-def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, settings: JointSettings) -> Couplings:
-    """All constant rows of a part."""
+def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, settings: JointSettings,
+                   information: float) -> Couplings:
+    """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs."""
     count = lattices.count
     edges = _edge_samples(part, lattices)
     rows = vstack([edges.first.matrix(count) - edges.second.matrix(count), _pole_rows(part, lattices)]).tocsr()
@@ -94,18 +103,23 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, setti
     dihedral_rows = _dihedral_rows(edges, lattices)
     dihedral_weight = edges.length / np.mean(edges.length) / settings.dihedral_sigma**2 if len(edges.edge) else np.zeros(0)
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + thickness_rows.T @ diags(thickness_weight) @ thickness_rows
-              + diags(_anchor(part, lattices, settings)))
+              + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
     return Couplings(scalar.tocsr(), pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,
                      dihedral_weight)
 
 
-def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings) -> Array:
-    """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs."""
+def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
+    """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs.
+
+    The prior is also worth a small share of the scan, which no observed motion feels: a motion that nothing observes (a
+    body of revolution about its axis) must not follow what is left of errors elsewhere.
+    """
     weight = np.zeros(lattices.count)
+    prior = max(settings.pose_sigma**-2, _PRIOR_SHARE * information)
     for solid in part.solids:
         own = np.isin(lattices.face_of_control, solid)
-        weight[own] = settings.pose_sigma**-2 / max(own.sum(), 1)
+        weight[own] = prior / max(own.sum(), 1)
     weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN
     return weight
 

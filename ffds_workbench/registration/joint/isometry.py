@@ -2,44 +2,59 @@
 """Whether a part kept its lengths: the strain that the scan shows, and the weight that isometry gets from it."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..splines import Array
 from .problem import Problem
 from .raster import normals
-from .settings import JointSettings
-from .values import CellValues
+from .settings import Stage
+from .state import State
 
 _ISOMETRIC, _STRETCHED = 0.003, 0.005
 """Rms strain up to which a part counts as isometric, and from which it does not."""
+_OBSERVED = 0.3
+"""Share of a span's cells that make it observed."""
 _WALL = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
-_LEAST_WEIGHT = 1e-3
+_OFF = 1e-3
 
 
-def observed_strain(problem: Problem, control_points: Array, values: CellValues) -> float:
-    """Rms strain of the mid surface over the spans that the scan observes."""
+def observed_strain(problem: Problem, state: State) -> float:
+    """Rms strain of the mid surface over the spans of sheets (of all faces, if there is no sheet) that the scan observes."""
     stiffness, lattices = problem.stiffness, problem.lattices
-    jet = stiffness.places.displaced(lattices, control_points, 3)
-    normal = normals(jet, stiffness.places.outward)[0]
     thickness = problem.couplings.pairs.of_face[lattices.face_of_span]
-    strain = stiffness.strain(lattices, control_points, normal, thickness)[0]
-    seen = (values.weight.reshape(problem.cells.inside.shape) > 0).sum(axis=1) > 0.3 * problem.cells.inside.sum(axis=1)
-    seen &= (thickness > 0) | ~(problem.couplings.pairs.of_face > 0).any()
+    jet = stiffness.places.displaced(lattices, state.control_points, 3)
+    strain = stiffness.strain(lattices, state.control_points, normals(jet, stiffness.places.outward)[0], thickness)[0]
+    cells = problem.cells.inside
+    seen = (state.values.weight.reshape(cells.shape) > 0).sum(axis=1) > _OBSERVED * cells.sum(axis=1)
+    if (thickness > 0).any():
+        seen &= thickness > 0
     area = stiffness.area * seen[:, None]
     return float(np.sqrt((area[..., None] * strain**2).sum() / max(area.sum(), 1e-12)))
 
 
-def isometry_weights(problem: Problem, control_points: Array, values: CellValues, settings: JointSettings,
-                     decide: bool) -> Array:
-    """Weight per mm² of the strain in every span: (spans,)."""
+def isometry_weights(problem: Problem, state: State, stage: Stage) -> State:
+    """The state with the weight per mm² of the strain in every span, and the strain it was decided from.
+
+    Until the first soft stage is over a sheet counts as isometric; then the strain decides, once.
+    """
+    settings = problem.settings
     skin = problem.couplings.pairs.of_face[problem.lattices.face_of_span] > 0
     weight = settings.isometry_weight
+    strain = observed_strain(problem, state) if stage.soft and state.values is not None else 0.0
     if settings.isometry == "off":
-        weight = _LEAST_WEIGHT
-    elif settings.isometry == "auto" and decide:
-        strain = observed_strain(problem, control_points, values)
-        share = np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1)
-        weight = float(np.exp((1 - share) * np.log(weight) + share * np.log(settings.isometry_weight_soft)))
-        print('strain', strain, weight)
-    return np.where(skin, weight, min(_WALL * weight, settings.isometry_weight_soft))
+        weight = _OFF
+    elif settings.isometry == "auto" and stage.soft:
+        if state.strain:
+            return state
+        stretched = np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1)
+        weight = float(weight ** (1 - stretched) * settings.isometry_weight_soft**stretched)
+    weights: Array = np.where(skin, weight, min(_WALL * weight, settings.isometry_weight_soft))
+    return replace(state, isometry=weights, strain=strain)
+
+
+def is_isometric(state: State) -> bool:
+    """Whether the strain that was found lets the part count as isometric."""
+    return state.strain <= 0.5 * (_ISOMETRIC + _STRETCHED)

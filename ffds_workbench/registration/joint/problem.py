@@ -9,6 +9,8 @@ from scipy.sparse import csr_matrix
 
 from ...errors import RefusedError
 from ..splines import Array
+from .boundary import EdgeSides, edge_sides
+from .correspondence import trim_margin
 from .couplings import Couplings, make_couplings
 from .lattice import Index, Lattices, build_lattices
 from .part import JointPart
@@ -23,6 +25,7 @@ _SAMPLE = 20000
 _POINTS_PER_CELL = 8.0
 _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
+_TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
 
 
@@ -37,7 +40,9 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    bending : bending on the pattern, without its weight
+    bending, coupled, dihedral : constant rows on the pattern, bending without its weight
+    sides : where the faces lie at their edges
+    margin : (spans,) distance from the border that scan points must keep, in mm
     """
 
     part: JointPart
@@ -55,6 +60,8 @@ class Problem:
     bending: Array
     coupled: Array
     dihedral: Array
+    sides: EdgeSides
+    margin: Array
 
     @property
     def face_of_cell(self) -> Index:
@@ -75,20 +82,30 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
         raise RefusedError(f"The scan has only {len(scan)} points: at least {_FEWEST_POINTS} are needed.")
     pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE]
     sample = scan[pick]
-    statistics = scan_statistics(sample, len(sample) / len(scan))
+    statistics = scan_statistics(scan)
     span = max(settings.span, np.sqrt(_POINTS_PER_SPAN / statistics.density))
     lattices = build_lattices(part.faces, span, settings.turning, finer)
     per_span = int(np.clip(span / np.sqrt(_POINTS_PER_CELL / statistics.density), *_CELLS_PER_SPAN))
     cells = make_places(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     stiffness = make_stiffness(lattices, make_places(part.faces, lattices, GAUSS_PLACES))
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
-    couplings = make_couplings(part, lattices, pairs, settings)
-    pattern = Pattern(lattices, (couplings.scalar, _nodes_of(couplings.dihedral)))
+    couplings = make_couplings(part, lattices, pairs, settings, len(scan) / statistics.noise**2)
+    pattern = Pattern(lattices, (couplings.scalar, _nodes_of(couplings.dihedral)), _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
-    return Problem(part, settings, scan, sample, statistics, lattices, cells,
-                   distance_to_trims(part.faces, lattices, cells), np.where(cells.inside, area, 0.0), stiffness, couplings,
+    distance = distance_to_trims(part.faces, lattices, cells)
+    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, np.where(cells.inside, area, 0.0), stiffness, couplings,
                    pattern, pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
-                   pattern.from_vector(couplings.dihedral))
+                   pattern.from_vector(couplings.dihedral),
+                   edge_sides(couplings.edges, lattices, cells, distance),
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
+
+
+def _positions(lattices: Lattices, cells: Places) -> Array:
+    """Roughly where every control point lies: the mean of the spans it acts on, (controls, 3) in mm."""
+    middle = np.repeat(cells.nominal.position.mean(axis=1), 16, axis=0)
+    controls = lattices.controls.ravel()
+    total = np.stack([np.bincount(controls, weights=middle[:, k], minlength=lattices.count) for k in range(3)], axis=1)
+    return total / np.bincount(controls, minlength=lattices.count)[:, None]
 
 
 def _nodes_of(matrix: csr_matrix) -> csr_matrix:

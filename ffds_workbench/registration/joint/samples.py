@@ -58,6 +58,14 @@ class Samples:
                        self.outward[which])
 
 
+def concatenate(first: Samples, second: Samples) -> Samples:
+    """Both, one after the other."""
+    return Samples(np.concatenate([first.face, second.face]), np.concatenate([first.controls, second.controls]),
+                   np.concatenate([first.weights, second.weights], axis=1),
+                   np.concatenate([first.nominal, second.nominal], axis=1),
+                   np.concatenate([first.outward, second.outward]))
+
+
 def sample(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> Samples:
     """Places at (u, v) (n, 2) on faces (n,), in the order given."""
     n = len(face)

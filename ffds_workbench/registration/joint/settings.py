@@ -2,7 +2,7 @@
 """Settings of the joint solve. Every weight is the inverse of a variance with a physical meaning."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -26,23 +26,36 @@ class SensorProfile:
 
 @dataclass(frozen=True)
 class Stage:
-    """One step of the schedule: stiff first, soft later.
+    """One stage of the schedule: stiff first, soft later.
 
     Attributes
     ----------
     bending : multiplies the bending weight
     gate : scan points farther than this from the model are left out, in mm
-    iterations : Gauss-Newton steps
+    iterations : most Gauss-Newton steps
+    enough : the stage is over when no point moves farther in a step, in mm
+    soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
     """
 
     bending: float
     gate: float
     iterations: int
+    enough: float
+    soft: bool = False
     all_points: bool = False
 
 
-SCHEDULE = (Stage(1e3, 3.0, 2), Stage(1e2, 2.0, 1), Stage(10, 1.5, 1), Stage(1, 1.2, 5), Stage(1, 0.6, 2, True))
+SCHEDULE = (Stage(1e3, 3.0, 2, 0.3), Stage(1e2, 2.0, 1, 0.3), Stage(10, 1.5, 1, 0.2), Stage(1, 1.2, 1, 0.1),
+            Stage(1, 1.2, 5, 0.03, soft=True), Stage(1, 0.6, 4, 0.02, soft=True, all_points=True))
+
+
+def stages(schedule: tuple[Stage, ...], reach: float) -> tuple[Stage, ...]:
+    """The schedule for a scan that lies up to ``reach`` mm away: wider gates and more steps in the stages before the soft."""
+    scale = max(1.0, reach / schedule[0].gate)
+    return tuple(stage if stage.soft else replace(stage, gate=stage.gate * scale,
+                                                  iterations=int(np.ceil(stage.iterations * scale)))
+                 for stage in schedule)
 
 
 @dataclass(frozen=True)
@@ -66,7 +79,7 @@ class JointSettings:
     seed : of the random sample of scan points
     """
 
-    span: float = 8.0
+    span: float = 12.0
     turning: float = float(np.deg2rad(25))
     isometry: Literal["auto", "on", "off"] = "auto"
     curvature: float = 0.002

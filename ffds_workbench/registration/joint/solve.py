@@ -1,54 +1,104 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The joint solve: scan points pull the displacement lattices of all faces at once."""
+"""The joint solve: scan points pull the displacement lattices of all faces of a part at once.
+
+One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's step 3–5
+(closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later, so that trust is earned in order.
+"""
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
+from ...errors import RefusedError
 from ..splines import Array
-from .assembly import data_equations, shape_equations
-from .correspondence import correspond, make_frames, trim_margin
-from .isometry import isometry_weights, observed_strain
+from .assembly import border_equations, data_equations, shape_equations
+from .boundary import find_borders, near_edges
+from .correspondence import correspond, make_frames
+from .isometry import isometry_weights
 from .part import JointPart
 from .problem import Problem, make_problem
-from .settings import JointSettings
+from .refinement import finer_faces, transfer
+from .result import JointRegistration
+from .settings import JointSettings, Stage, stages
+from .state import State, start
+from .summary import refuse_bad, summarise
 from .system import solve
-from .values import CellValues, medians, tukey_means
+from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
-_NO_PROGRESS: Progress = lambda stage, share: None  # noqa: E731
 
 
-def run(problem: Problem, control_points: Array, settings: JointSettings, progress: Progress = _NO_PROGRESS, debug=None):
-    cells, lattices = problem.cells, problem.lattices
-    face_of_cell = problem.face_of_cell
-    noise = np.full(len(problem.part.faces), problem.statistics.noise)
-    factor = None
-    count = face_of_cell.size
-    step_size = []
-    isometry = None
-    k = 0
-    for stage in settings.schedule:
-        factor = None
-        for _ in range(stage.iterations):
-            jet = cells.displaced(lattices, control_points)
-            points = problem.scan if stage.all_points else problem.sample
-            margin = trim_margin(lattices, problem.distance, 0.7)
-            frames = make_frames(lattices, cells, jet, margin, problem.distance)
-            gate = max(stage.gate, 4 * problem.statistics.noise)
-            found = correspond(points, frames, gate)
-            values = (tukey_means if stage.all_points else medians)(found, count, noise, face_of_cell)
-            noise = values.noise
-            if k in (0, 5):
-                isometry = isometry_weights(problem, control_points, values, settings, decide=k > 0)
-                factor = None
-            equations = (data_equations(problem, jet, values)
-                         + shape_equations(problem, control_points, stage.bending, isometry))
-            step, factor = solve(problem.pattern, equations.blocks, equations.right, factor)
-            control_points = control_points + step
-            k += 1
-            step_size.append(np.abs(step).max())
-            if debug:
-                debug(k, stage, found, values, control_points, step)
-    return control_points, values, factor, isometry
+def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
+                   progress: Progress | None = None) -> JointRegistration:
+    """Register all faces of a part to a scan at once.
+
+    Parameters
+    ----------
+    part : the faces, edges and solids
+    scan : (n, 3) points in mm, in the frame of the part
+    settings : weights and schedule; the defaults suit sheet parts of 50–150 mm
+    progress : called as ``progress("stage", fraction)``
+
+    Raises
+    ------
+    RefusedError
+        no overlap, too few points, everything frozen, a displacement larger than the part, no convergence, or a surface
+        that folded over
+    """
+    settings = settings or JointSettings()
+    report = progress or (lambda stage, share: None)
+    problem = make_problem(part, scan, settings, {})
+    state = start(problem)
+    steps = stages(settings.schedule, state.reach)
+    for number, stage in enumerate(steps):
+        report("joint solve", number / len(steps))
+        state = run_stage(problem, stage, state)
+    finer = finer_faces(problem, state) if settings.refine else {}
+    if finer:
+        report("finer lattice", 1.0)
+        coarse, problem = problem, make_problem(part, scan, settings, finer)
+        state = transfer(coarse, problem, state)
+        for stage in steps[-2:]:
+            state = run_stage(problem, stage, state)
+    refuse_bad(problem, state)
+    return summarise(problem, state)
+
+
+def run_stage(problem: Problem, stage: Stage, state: State) -> State:
+    """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
+    state = isometry_weights(problem, state, stage)
+    if stage.soft and state.near is None:
+        edges = problem.couplings.edges
+        state = replace(state, near=near_edges(problem.scan, edges, state.control_points))
+    for _ in range(stage.iterations):
+        state = iterate(problem, stage, state)
+        if state.last_step < stage.enough:
+            break
+    return state
+
+
+def iterate(problem: Problem, stage: Stage, state: State) -> State:
+    """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
+    points = problem.scan if stage.all_points else problem.sample
+    jet = problem.cells.displaced(problem.lattices, state.control_points)
+    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    found = correspond(points, frames, max(stage.gate, 4 * problem.statistics.noise))
+    if not len(found.point):
+        raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
+    cell_values = tukey_means if stage.all_points else medians
+    values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
+    equations = (data_equations(problem, jet, values)
+                 + shape_equations(problem, state.control_points, stage.bending, state.isometry))
+    if stage.soft:
+        borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
+                               problem.statistics.noise)
+        equations += border_equations(problem, borders)
+    step, factor = solve(problem.pattern, equations.blocks, equations.right, state.factor)
+    moved = problem.cells.tables[0] @ step[problem.lattices.controls]
+    last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
+    return replace(state, control_points=state.control_points + step, factor=factor, values=values, noise=values.noise,
+                   equations=equations, last_step=last_step, iterations=state.iterations + 1)
+
+

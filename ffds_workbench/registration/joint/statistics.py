@@ -10,7 +10,9 @@ from scipy.spatial import cKDTree
 from ..splines import Array
 
 _NEIGHBOURS = 16
-_PROBES = 1500
+_SLABS = (0.2, 0.4, 0.6, 0.8)
+_SLAB_POINTS = 5000
+_PROBES = 400
 
 
 @dataclass(frozen=True)
@@ -27,14 +29,23 @@ class ScanStatistics:
     noise: float
 
 
-def scan_statistics(sample: Array, share: float) -> ScanStatistics:
-    """Statistics from a random sample (n, 3) that is ``share`` of the scan."""
-    tree = cKDTree(sample)
-    probes = sample[:: max(1, len(sample) // _PROBES)]
-    count = min(_NEIGHBOURS, len(sample))
-    distance, near = tree.query(probes, k=count)
-    area = np.pi * np.median(distance[:, -1]) ** 2
-    local = sample[near] - sample[near].mean(axis=1, keepdims=True)
+def scan_statistics(scan: Array) -> ScanStatistics:
+    """Statistics of a scan (n, 3), from points in the middle of a few slabs across it, where it keeps its density."""
+    axis = int(np.argmax(np.ptp(scan, axis=0)))
+    order = np.argsort(scan[:, axis])
+    found = [_slab_statistics(scan[order[start : start + _SLAB_POINTS]])
+             for start in {max(0, int(f * len(scan)) - _SLAB_POINTS // 2) for f in _SLABS}]
+    density, noise = np.concatenate(found, axis=1)
+    return ScanStatistics(float(np.median(density)), max(float(np.median(noise)), 1e-4))
+
+
+def _slab_statistics(slab: Array) -> Array:
+    """Density and noise around probes in the inner half of a slab: (2, probes)."""
+    inner = np.arange(len(slab) // 4, max(3 * len(slab) // 4, len(slab) // 4 + 1))
+    probes = slab[inner[:: max(1, len(inner) // _PROBES)]]
+    count = min(_NEIGHBOURS, len(slab))
+    distance, near = cKDTree(slab).query(probes, k=count)
+    local = slab[near] - slab[near].mean(axis=1, keepdims=True)
     smallest = np.linalg.eigvalsh(np.matmul(local.swapaxes(1, 2), local))[:, 0]
-    noise = float(np.sqrt(np.median(np.maximum(smallest, 0)) / max(count - 3, 1)))
-    return ScanStatistics(float((count - 1) / max(area, 1e-12) / share), max(noise, 1e-4))
+    density = (count - 1) / np.maximum(np.pi * distance[:, -1] ** 2, 1e-12)
+    return np.stack([density, np.sqrt(np.maximum(smallest, 0) / max(count - 3, 1))])

@@ -6,22 +6,24 @@ import numpy as np
 from scipy.sparse import bsr_matrix, csr_matrix, spmatrix
 
 from ..splines import Array
-from .cholesky import LevelCholesky, LevelLayout
+from .cholesky import FrontCholesky, FrontLayout
+from .dissection import dissect
 from .lattice import Index, Lattices
 
-_CG_STEPS = 12
-_CG_TOLERANCE = 1e-3
+_CG_STEPS = 25
+_CG_TOLERANCE = 3e-3
 
 
 class Pattern:
     """Which control points meet in a row, found once per part; values are 3 × 3 blocks in the pattern's order."""
 
-    def __init__(self, lattices: Lattices, couplings: tuple[spmatrix, ...]) -> None:
-        """``couplings`` are scalar (controls, controls) matrices whose non-zeros belong to the pattern."""
+    def __init__(self, lattices: Lattices, couplings: tuple[spmatrix, ...], position: Array) -> None:
+        """``couplings`` are scalar (controls, controls) matrices whose non-zeros belong to the pattern, ``position``
+        (controls, 3) is where the control points lie, for their order."""
         n, spans = lattices.count, len(lattices.controls)
         start = np.arange(spans + 1) * 16
         meets = csr_matrix((np.ones(spans * 16, dtype=np.int32), lattices.controls.ravel(), start), shape=(spans, n))
-        pattern = (meets.T @ meets).astype(np.int32)
+        pattern = (meets.T @ meets).tocsr()
         for matrix in couplings:
             other = matrix.tocsr()
             pattern = pattern + csr_matrix((np.ones(other.nnz, dtype=np.int32), other.indices, other.indptr), other.shape)
@@ -32,7 +34,7 @@ class Pattern:
         self._keys = self.rows * n + self.indices
         controls = lattices.controls
         self.span_position = self.position(np.repeat(controls, 16, axis=1).ravel(), np.tile(controls, 16).ravel())
-        self.layout = LevelLayout(self.rows, self.indices, pattern)
+        self.layout = FrontLayout(dissect(pattern, position), self.rows, self.indices)
 
     @property
     def size(self) -> int:
@@ -65,7 +67,7 @@ class Pattern:
         return bsr_matrix((blocks, self.indices, self.indptr), shape=(3 * self.count, 3 * self.count))
 
 
-def solve(pattern: Pattern, blocks: Array, right: Array, factor: LevelCholesky | None) -> tuple[Array, LevelCholesky]:
+def solve(pattern: Pattern, blocks: Array, right: Array, factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
     """Solve the normal equations; with a factor of a near matrix by conjugate gradients, else (or if slow) anew.
 
     Parameters
@@ -82,11 +84,11 @@ def solve(pattern: Pattern, blocks: Array, right: Array, factor: LevelCholesky |
         solution = _conjugate_gradients(pattern.matrix(blocks), right.ravel(), factor)
         if solution is not None:
             return solution.reshape(-1, 3), factor
-    factor = LevelCholesky(pattern.layout, blocks)
+    factor = FrontCholesky(pattern.layout, blocks)
     return factor.solve(right.ravel()).reshape(-1, 3), factor
 
 
-def _conjugate_gradients(matrix: bsr_matrix, right: Array, factor: LevelCholesky) -> Array | None:
+def _conjugate_gradients(matrix: bsr_matrix, right: Array, factor: FrontCholesky) -> Array | None:
     """Preconditioned by the factor, stopped early on purpose: the next Gauss-Newton step corrects what is left."""
     x = np.zeros_like(right)
     residual = right.copy()

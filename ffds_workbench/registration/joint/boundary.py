@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the scan visibly ends: at a sharp edge between a face that was seen and one that was not.
+
+Data along the normal say nothing of an edge's place within its face. The outermost scan points in the plane of the seen
+face do.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ..splines import Array
+from .couplings import EdgeSamples
+from .lattice import Index, Lattices
+from .raster import Places
+from .samples import Samples, concatenate
+
+_REACH = 2.5
+_SHARP = 0.7
+_RANK = 3
+"""The edge lies beyond the third outermost point, by what three points take of the density."""
+_BAND = (0.5, 2.0)
+"""Distance inside the outermost points, in mm, between which the density is counted."""
+_FEWEST = 12
+_UNSEEN = 0.15
+_FLOOR = 0.05
+"""Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
+_HUBER = 2.0
+_DISCARD = 3.0
+
+
+@dataclass(frozen=True)
+class Borders:
+    """Rows m·δ = offset at places on edges.
+
+    Attributes
+    ----------
+    samples : the places, on the seen face
+    direction : (n, 3) m, out of the face and in its plane
+    offset : (n,) in mm
+    weight : (n,) 1/mm²
+    """
+
+    samples: Samples
+    direction: Array
+    offset: Array
+    weight: Array
+
+
+@dataclass(frozen=True)
+class EdgeSides:
+    """Which way the faces lie at the edge samples.
+
+    Attributes
+    ----------
+    sign : (2, n) m = sign · (t × n) points out of the first and of the second face
+    sharp : (n,) the edge is convex and sharp
+    """
+
+    sign: Array
+    sharp: NDArray[np.bool_]
+
+
+def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places, distance: Array) -> EdgeSides:
+    """Sides of the nominal edges, from the nearest cells of both faces; ``distance`` (spans, k) from the border."""
+    signs, out = np.ones((2, len(edges.edge))), []
+    still = np.zeros((lattices.count, 3))
+    for k, side in enumerate((edges.first, edges.second)):
+        across = np.cross(edges.direction, side.normals(still))
+        lean = np.zeros(len(side))
+        for face in np.unique(side.face):
+            spans = np.flatnonzero(lattices.face_of_span == face)
+            centres = cells.nominal.position[spans][distance[spans] > 0]
+            rows = np.flatnonzero(side.face == face)
+            if len(centres):
+                nearest = centres[cKDTree(centres).query(side.nominal[0, rows])[1]]
+                lean[rows] = np.einsum("nx,nx->n", nearest - side.nominal[0, rows], across[rows])
+        signs[k] = np.where(np.bincount(edges.edge, weights=lean)[edges.edge] > 0, -1.0, 1.0) if len(lean) else 1.0
+        out.append(signs[k][:, None] * across)
+    normal = edges.first.normals(still), edges.second.normals(still)
+    convex = np.einsum("nx,nx->n", out[0], normal[1]) > 0
+    return EdgeSides(signs, convex & (np.einsum("nx,nx->n", *normal) < _SHARP))
+
+
+def near_edges(points: Array, edges: EdgeSamples, control_points: Array) -> Array:
+    """The scan points, (n, 3), that lie near any edge and are worth looking at."""
+    if not len(edges.edge):
+        return points[:0]
+    place = edges.first.nominal[0] + edges.first.displacement(control_points)
+    distance = cKDTree(place).query(points, distance_upper_bound=2 * _REACH, workers=-1)[0]
+    return points[np.isfinite(distance)]
+
+
+def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
+    """Visible borders at the current shape, from points near the edges (`near_edges`)."""
+    pairs = (edges.first, edges.second), (edges.second, edges.first)
+    found = [_one_side(points, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
+             for k, (seen, other) in enumerate(pairs)]
+    rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
+    samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
+    direction, offset, weight = (np.concatenate([side[k][r] for side, r in zip(found, rows, strict=True)]) for k in range(3))
+    return Borders(samples, direction, offset, weight)
+
+
+def _one_side(points: Array, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array, sharp: NDArray[np.bool_],
+              control_points: Array, noise: float) -> tuple[Array, Array, Array]:
+    """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
+    count = len(edges.edge)
+    place = seen.nominal[0] + seen.displacement(control_points)
+    normal, out = _across(edges, seen, sign[0], control_points)
+    beyond, away = _across(edges, other, sign[1], control_points)
+    nothing = out, np.zeros(count), np.zeros(count)
+    if not sharp.any() or not len(points):
+        return nothing
+    near = cKDTree(place).query(points, distance_upper_bound=_REACH, workers=-1)[1]
+    point = np.flatnonzero(near < count)
+    row = near[point]
+    local = points[point] - place[row]
+    across = np.einsum("nx,nx->n", local, out[row])
+    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * noise
+    on_other = ((np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise)
+                & (np.einsum("nx,nx->n", local, away[row]) < -_BAND[0]) & ~on_seen)
+    outermost = _rank_from_top(row[on_seen], across[on_seen], count)
+    inside = outermost[row] - across
+    population = np.bincount(row[on_seen & (inside > _BAND[0]) & (inside < _BAND[1])], minlength=count)
+    per_mm = np.maximum(population / (_BAND[1] - _BAND[0]), 1e-9)
+    offset = outermost + _RANK / per_mm
+    good = (sharp & (population >= _FEWEST) & (np.bincount(row[on_other], minlength=count) < _UNSEEN * population)
+            & (np.abs(offset) < _REACH - _BAND[0]))
+    if not good.any():
+        return nothing
+    sigma = np.hypot(_FLOOR, np.sqrt(_RANK) / per_mm)
+    off = np.abs(offset - _edge_medians(edges.edge, offset, good)) / (_HUBER * sigma)
+    good &= off < _DISCARD
+    return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * sigma**2), 0.0)
+
+
+def _across(edges: EdgeSamples, side: Samples, sign: Array, control_points: Array) -> tuple[Array, Array]:
+    """Current normal of a face along its edges, and the direction in the face out of it."""
+    normal = side.normals(control_points)
+    out = sign[:, None] * np.cross(edges.along(side.nominal[0] + side.displacement(control_points)), normal)
+    return normal, out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12)
+
+
+def _rank_from_top(row: Index, value: Array, count: int) -> Array:
+    """The third largest value of every row; −inf where there are fewer."""
+    order = np.lexsort((value, row))
+    end = np.searchsorted(row[order], np.arange(count), side="right")
+    start = np.searchsorted(row[order], np.arange(count), side="left")
+    enough = end - start >= _RANK
+    result = np.full(count, -np.inf)
+    result[enough] = value[order[end[enough] - _RANK]]
+    return result
+
+
+def _edge_medians(edge: Index, value: Array, good: NDArray[np.bool_]) -> Array:
+    centre = np.zeros(len(edge))
+    for number in np.unique(edge[good]):
+        here = edge == number
+        centre[here] = np.median(value[here & good])
+    return centre
