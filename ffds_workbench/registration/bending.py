@@ -43,13 +43,15 @@ def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: N
     form, curl, dual, inverse = _tensors(s_u, s_v, s_uu, s_uv, s_vv, normal)
     bases_u = [basis_matrix(lattice.knots_u, u, derivative=k) for k in range(3)]
     bases_v = [basis_matrix(lattice.knots_v, v, derivative=k) for k in range(3)]
-    energy = np.zeros_like(layout.symmetric(np.zeros(len(layout.place))))
+    energy: Array | float = 0.0
     for p, (pu, pv) in enumerate(_ORDERS):
         for q, (qu, qv) in enumerate(_ORDERS[: p + 1]):
             grids = _density(p, q, components, form, curl, dual, inverse, normal) * cell
             products = grid_products(grids.reshape(-1, *shape), offset_products(bases_u[pu], bases_u[qu]),
                                      offset_products(bases_v[pv], bases_v[qv]))
-            energy += layout.symmetric(products) if p == q else layout.symmetrised(products)
+            if len(products) < components**2:
+                products = np.eye(components).reshape(-1, 1, 1) * products
+            energy = energy + (layout.symmetric(products) if p == q else layout.symmetrised(products))
     gauge = np.eye(components)[:, :, None] * (cell * (1 + 1e-6))
     if components == 3:
         gauge = gauge - normal.T[:, None] * normal.T[None] * cell
@@ -60,11 +62,14 @@ def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: N
 
 def _density(p: int, q: int, components: int, form: Array, curl: Array, dual: Array, inverse: Array,
              normal: Array) -> Array:
-    """Coefficient of (d_p)_a (d_q)_b in the energy density, (components, components, nodes); p, q number the orders."""
-    isotropic = np.einsum("kn,kn->n", form[p], form[q])
+    """Coefficient of (d_p)_a (d_q)_b in the energy density; p, q number the orders.
+
+    (components, components, nodes), or (1, nodes) if it is the same for a = b = x, y, z and none else.
+    """
+    isotropic = (form[p] * form[q]).sum(axis=0)[None]
+    if components == 1 or (p >= 2 and q >= 2):
+        return np.asarray(isotropic)
     density = np.eye(components)[:, :, None] * isotropic
-    if components == 1:
-        return density
     if q < 2:
         density = density + curl[p] * dual[q].T[:, None] * normal.T[None]
     if p < 2:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +16,15 @@ from .splines import Array, SplineSurface
 Index = NDArray[np.intp]
 Located = tuple[Array, Array, Array, NDArray[np.bool_]]
 """Cell coordinates x and y, height in mm, and whether they are to be trusted."""
+Locator = Callable[[Array], tuple]
+"""(3, n) points to the rows it kept (None for all), and what it `Located` for them."""
 
-_CHUNK = 8192
+_CHUNK = 16384
 _MOST_VOXELS = 262144
 _LONGEST_STEP = 4.0
 _LEAST_SPREAD = 0.2
 """Foot points closer to the centre of curvature than this share of the radius are not unique enough to be used."""
-_UNKNOWN, _FAR = -2, -1
+_UNKNOWN, _FAR, _NEAR = 0, 1, 2
 _SETTLED = 1.5
 """A foot point this many cells from the frame it was found in is not trusted."""
 
@@ -35,19 +38,31 @@ class SurfaceCoordinates:
     index : (k,) into the scan
     x, y : (k,) parameters of the foot points, counted in cells of the raster
     height : (k,) in mm, positive out of the material
+    shape : cells of the raster
     """
 
     index: Index
     x: Array
     y: Array
     height: Array
+    shape: tuple[int, int]
+
+    @cached_property
+    def in_cell(self) -> tuple[Index, Array, Array]:
+        """Cell of each foot point, and its place in it about the centre, −½ … ½."""
+        i, j = self.x.astype(np.int32), self.y.astype(np.int32)
+        np.minimum(i, self.shape[0] - 1, out=i)
+        np.minimum(j, self.shape[1] - 1, out=j)
+        cell = i.astype(np.intp)
+        cell *= self.shape[1]
+        cell += j
+        return cell, self.x - i - 0.5, self.y - j - 0.5
 
     def on_face(self, raster: Raster, margin: float) -> SurfaceCoordinates:
         """Those whose foot point lies inside the trims, at least ``margin`` mm from them."""
-        cell = raster.cell(self.x, self.y)
-        i, j = np.divmod(cell, raster.shape[1])
+        cell, dx, dy = self.in_cell
         slope_x, slope_y = raster.gradient(raster.depth)
-        depth = raster.depth[cell] + slope_x[cell] * (self.x - i - 0.5) + slope_y[cell] * (self.y - j - 0.5)
+        depth = raster.depth[cell] + slope_x[cell] * dx + slope_y[cell] * dy
         return self._part(np.flatnonzero(depth >= margin))
 
     def sample(self, most: int) -> SurfaceCoordinates:
@@ -57,7 +72,7 @@ class SurfaceCoordinates:
         return self._part(np.random.default_rng(0).integers(len(self.x), size=most))
 
     def _part(self, rows: Index) -> SurfaceCoordinates:
-        return SurfaceCoordinates(self.index[rows], self.x[rows], self.y[rows], self.height[rows])
+        return SurfaceCoordinates(self.index[rows], self.x[rows], self.y[rows], self.height[rows], self.shape)
 
 
 def surface_coordinates(raster: Raster, points: Array, reach: float) -> SurfaceCoordinates:
@@ -74,39 +89,35 @@ def surface_coordinates(raster: Raster, points: Array, reach: float) -> SurfaceC
     in the quadratic frames of the cells, the last one in the cell it ends in: the height is right to third order of the
     cell size.
     """
-    locate = _locate_flat if raster.flat else _curved_locator(raster, reach)
-    margin = reach + raster.size.max()
-    low, high = raster.position.min(axis=0) - margin, raster.position.max(axis=0) + margin
+    locate = _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
     kept = []
     for first in range(0, len(points), _CHUNK):
-        chunk = np.ascontiguousarray(points[first : first + _CHUNK].T)
-        near = np.ones(chunk.shape[1], dtype=bool)
-        for a, lowest, highest in zip(chunk, low, high, strict=True):
-            near &= (a >= lowest) & (a <= highest)
-        index = np.flatnonzero(near)
-        if not len(index):
-            continue
-        x, y, height, valid = locate(raster, chunk.take(index, axis=1))
+        index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach
         for a, count, periodic in zip((x, y), raster.shape, raster.periodic, strict=True):
             if not periodic:
                 valid &= (a >= 0) & (a < count)
-        kept.append((index[valid] + first, x[valid], y[valid], height[valid]))
-    if not kept:
-        kept.append((np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0), np.zeros(0)))
+        chosen = np.flatnonzero(valid)
+        index = chosen if index is None else index[chosen]
+        kept.append((index + first, x[chosen], y[chosen], height[chosen]))
     index, x, y, height = (np.concatenate(column) for column in zip(*kept, strict=True))
-    return SurfaceCoordinates(index, raster.wrapped(x, 0), raster.wrapped(y, 1), height)
+    return SurfaceCoordinates(index, raster.wrapped(x, 0), raster.wrapped(y, 1), height, raster.shape)
 
 
-def _locate_flat(raster: Raster, points: Array) -> Located:
+def _flat_locator(raster: Raster) -> Locator:
     tangents = np.stack([raster.tangent_u[0], raster.tangent_v[0]])
     to_cells = np.vstack([np.linalg.pinv(tangents).T, raster.normal[0]])
-    x, y, height = to_cells @ (points - raster.position[0][:, None])
-    return x + 0.5, y + 0.5, height, np.ones(points.shape[1], dtype=bool)
+    origin = np.array([[0.5], [0.5], [0.0]]) - to_cells @ raster.position[0][:, None]
+
+    def locate(points: Array) -> tuple[None, Array, Array, Array, NDArray[np.bool_]]:
+        x, y, height = to_cells @ points + origin
+        return None, x, y, height, np.ones(len(x), dtype=bool)
+
+    return locate
 
 
-def _curved_locator(raster: Raster, reach: float) -> Callable[[Raster, Array], Located]:
-    """A function that seeds each point with the cell nearest to its voxel; voxels are looked up once, when first met."""
+def _curved_locator(raster: Raster, reach: float) -> Locator:
+    """Seeds each point by the linear map of its voxel; voxels are looked up once, when first met."""
     tree = cKDTree(raster.position)
     margin = reach + 2 * raster.size.max()
     low = raster.position.min(axis=0) - margin
@@ -114,27 +125,47 @@ def _curved_locator(raster: Raster, reach: float) -> Callable[[Raster, Array], L
     edge = max((np.prod(extent) / _MOST_VOXELS) ** (1 / 3), 2 * raster.size.min())
     count = np.ceil(extent / edge).astype(np.intp)
     farthest = margin + edge
-    seeds = np.full(int(np.prod(count)), _UNKNOWN, dtype=np.intp)
+    known = np.full(int(np.prod(count)), _UNKNOWN, dtype=np.int8)
+    seeds = np.empty((8, len(known)))
 
-    def locate(raster: Raster, points: Array) -> Located:
+    def locate(points: Array) -> tuple[Index, Array, Array, Array, NDArray[np.bool_]]:
+        near = np.ones(points.shape[1], dtype=bool)
+        for a, lowest, length in zip(points, low, extent, strict=True):
+            near &= (a >= lowest) & (a < lowest + length)
+        index = np.flatnonzero(near)
+        points = points.take(index, axis=1)
         i, j, k = ((points - low[:, None]) * (1 / edge)).astype(np.intp)
         voxel = (i * count[1] + j) * count[2] + k
-        cell = seeds.take(voxel)
-        new = np.unique(voxel[cell == _UNKNOWN])
+        state = known.take(voxel)
+        new = np.unique(voxel[state == _UNKNOWN])
         if len(new):
             centre = low + edge * (np.stack(np.unravel_index(new, tuple(count)), axis=1) + 0.5)
             distance, nearest = tree.query(centre)
-            seeds[new] = np.where(distance <= farthest, nearest, _FAR)
-            cell = seeds.take(voxel)
-        near = np.flatnonzero(cell >= 0)
-        if len(near) == len(cell):
-            return newton_in_cells(raster, points, cell)
-        x, y, height = (np.full(len(cell), np.inf) for _ in range(3))
-        valid = np.zeros(len(cell), dtype=bool)
-        x[near], y[near], height[near], valid[near] = newton_in_cells(raster, points.take(near, axis=1), cell[near])
-        return x, y, height, valid
+            known[new] = np.where(distance <= farthest, _NEAR, _FAR)
+            seeds[:, new] = _linear(raster, centre.T, nearest)
+            state = known.take(voxel)
+        close = np.flatnonzero(state == _NEAR)
+        if len(close) < len(state):
+            index, points, voxel = index[close], points.take(close, axis=1), voxel[close]
+        s = seeds.take(voxel, axis=1)
+        x, y = (s[k] + s[k + 1] * points[0] + s[k + 2] * points[1] + s[k + 3] * points[2] for k in (0, 4))
+        return index, *newton_in_cells(raster, points, _cell(raster, x, y), 1)
 
     return locate
+
+
+def _linear(raster: Raster, points: Array, cell: Index) -> Array:
+    """Cell coordinates near the given points as linear functions of the position: (8, n), x: constant and gradient, y."""
+    for _ in range(2):
+        x, y, height, _ = newton_in_cells(raster, points, cell, 1)
+        cell = _cell(raster, x, y)
+    c = raster.table.take(cell, axis=1)
+    spread1, spread2 = (np.maximum(1 - height * c[k], _LEAST_SPREAD) for k in (12, 13))
+    rows = []
+    for a, k in ((x, 14), (y, 16)):
+        gradient = c[k] / spread1 * c[3:6] + c[k + 1] / spread2 * c[6:9]
+        rows += [a - (gradient * points).sum(axis=0), *gradient]
+    return np.stack(rows)
 
 
 def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) -> Located:
@@ -155,8 +186,9 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
     In the principal frame of a cell, with (x₁, x₂, z) the point and k₁, k₂ the curvatures, the foot point is at
     sᵢ = xᵢ / (1 − z kᵢ) and the height z − ½ Σ kᵢ xᵢ sᵢ, up to third order.
     """
-    n = raster.shape[1]
-    for _ in range(steps):
+    for step in range(steps):
+        if step:
+            cell = _cell(raster, x, y)
         c = raster.table.take(cell, axis=1)
         r = points - c[0:3]
         x1, x2, z = (r[0] * c[k] + r[1] * c[k + 1] + r[2] * c[k + 2] for k in (3, 6, 9))
@@ -164,15 +196,15 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
         unique = np.minimum(spread1, spread2) > _LEAST_SPREAD
         s1, s2 = x1 / np.maximum(spread1, _LEAST_SPREAD), x2 / np.maximum(spread2, _LEAST_SPREAD)
         dx, dy = c[14] * s1 + c[15] * s2, c[16] * s1 + c[17] * s2
-        i, j = np.divmod(cell, n)
-        x = i + 0.5 + np.clip(dx, -_LONGEST_STEP, _LONGEST_STEP)
-        y = j + 0.5 + np.clip(dy, -_LONGEST_STEP, _LONGEST_STEP)
-        cell = _clipped(raster, x, 0) * n + _clipped(raster, y, 1)
+        x = c[18] + np.minimum(np.maximum(dx, -_LONGEST_STEP), _LONGEST_STEP)
+        y = c[19] + np.minimum(np.maximum(dy, -_LONGEST_STEP), _LONGEST_STEP)
     height = z - 0.5 * (c[12] * x1 * s1 + c[13] * x2 * s2)
     return x, y, height, unique & (np.maximum(np.abs(dx), np.abs(dy)) <= _SETTLED)
 
 
-def _clipped(raster: Raster, x: Array, axis: int) -> Index:
-    count = raster.shape[axis]
-    i = np.floor(x).astype(np.intp)
-    return np.mod(i, count) if raster.periodic[axis] else np.clip(i, 0, count - 1)
+def _cell(raster: Raster, x: Array, y: Array) -> Index:
+    """The cell of cell coordinates, the nearest one where they lie outside the range."""
+    i, j = (np.clip(np.floor(raster.wrapped(a, k)), 0, raster.shape[k] - 1).astype(np.intp) for k, a in enumerate((x, y)))
+    i *= raster.shape[1]
+    i += j
+    return i

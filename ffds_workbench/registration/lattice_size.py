@@ -6,24 +6,28 @@ for: finer ones follow noise, coarser ones leave out what is there.
 """
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
-from .control_lattice import displacement_lattice
+from .control_lattice import ControlLattice, displacement_lattice, folded, periodic_knots
 from .normal_equations import LEAST_NOISE
 from .raster import Raster
-from .splines import DEGREE, Array, SplineSurface
+from .splines import DEGREE, Array, SplineSurface, basis_matrix, clamped_knots
 from .start import Layers
 
 _SPAN_IN_LENGTHS = 4.0
 _COARSE_SPANS = 7
 _LARGEST_TURN = np.radians(30)
 _FEWEST, _MOST = 4, 64
-_SPANS = (2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 17, 20)
+_SPANS = (2, 3, 4, 6, 8, 11, 15, 20, 27)
 _HELD_OUT_BLOCKS = 3
 _FOLDS = 4
 _TOLERANCE = 0.01
 """Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
 _PATIENCE = 2
+_CLEARLY_WORSE = 1.02
+_NODES = 100
 
 
 def coarse_lattice(raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:
@@ -55,7 +59,7 @@ def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, we
     for spans in [s for s in _SPANS if s <= finest] or [_SPANS[0]]:
         sizes.append(_size(raster, spans))
         scores.append(_held_out(surface, raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2, sizes[-1], stiffness))
-        if len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
+        if len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE or scores[-1] > _CLEARLY_WORSE * min(scores):
             break
     good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _TOLERANCE))
     return sizes[min(int(good[0]) + 1, len(sizes) - 1)]
@@ -88,30 +92,36 @@ def _held_out(surface: SplineSurface, raster: Raster, layers: Layers, data: Arra
     lattice = displacement_lattice(surface, size)
     u, v = raster.corner[0] + raster.step[0] * layers.x, raster.corner[1] + raster.step[1] * layers.y
     rows = (lattice.basis_u(u)[:, :, None] * lattice.basis_v(v)[:, None]).reshape(len(u), -1)
-    bending = stiffness * _flat_bending(raster, lattice.basis_u, lattice.basis_v)
-    bending[np.diag_indices_from(bending)] += 1e-9 * np.trace(bending) / len(bending) + 1e-9
+    rows *= np.sqrt(data)[:, None]
+    heights = np.sqrt(data) * layers.height
     edge = _HELD_OUT_BLOCKS * layers.block
     fold = ((layers.x // edge).astype(int) + 2 * (layers.y // edge).astype(int)) % _FOLDS
-    squared = total = 0.0
-    for held in range(0, _FOLDS, 2):
-        fitted = (fold != held) & (data > 0)
-        weighted = rows[fitted] * data[fitted, None]
-        points = np.linalg.solve(rows[fitted].T @ weighted + bending, weighted.T @ layers.height[fitted])
-        judged = (fold == held) & (data > 0)
-        residual = layers.height[judged] - rows[judged] @ points
-        squared += float(data[judged] @ residual**2)
-        total += float(data[judged].sum())
-    return squared / max(total, 1e-300)
+    parts = [(part, part.T @ part, part.T @ y, y) for part, y in
+             ((rows[fold == k], heights[fold == k]) for k in range(_FOLDS))]
+    matrix, right = sum(p[1] for p in parts), sum(p[2] for p in parts)
+    matrix = matrix + stiffness * _flat_bending(raster, lattice)
+    matrix[np.diag_indices_from(matrix)] += 1e-9 * np.trace(matrix) / len(matrix) + 1e-9
+    squared = 0.0
+    for part, gram, moment, y in parts:
+        points = np.linalg.solve(matrix - gram, right - moment)
+        squared += float(np.sum((y - part @ points) ** 2))
+    return squared / max(float(data.sum()), 1e-300)
 
 
-def _flat_bending(raster: Raster, basis_u, basis_v) -> Array:
+def _flat_bending(raster: Raster, lattice: ControlLattice) -> Array:
     """Bending energy of a field of heights on the face laid flat: ∫ h_xx² + 2 h_xy² + h_yy², dense."""
     grams = []
-    for basis, axis in ((basis_u, 0), (basis_v, 1)):
-        count = 4 * raster.shape[axis]
-        x = raster.corner[axis] + raster.step[axis] * raster.shape[axis] * (np.arange(count) + 0.5) / count
-        scale = raster.step[axis] / raster.size[axis]
-        weight = _lengths(raster)[axis] / count
-        grams.append([weight * (b := basis(x, k) * scale**k).T @ b for k in range(3)])
+    for length, fold, closed in zip(_lengths(raster), (lattice.fold_u, lattice.fold_v), raster.periodic, strict=True):
+        grams.append([gram * length ** (1 - 2 * k) for k, gram in enumerate(_unit_grams(tuple(fold), closed))])
     (u0, u1, u2), (v0, v1, v2) = grams
     return np.kron(u2, v0) + 2 * np.kron(u1, v1) + np.kron(u0, v2)
+
+
+@lru_cache(maxsize=256)
+def _unit_grams(fold: tuple[int, ...], closed: bool) -> tuple[Array, Array, Array]:
+    """∫ N_i^(k) N_j^(k) over [0, 1] for k = 0, 1, 2, of a direction with the given repeated control points."""
+    knots = periodic_knots(0, 1, len(fold) - DEGREE) if closed else clamped_knots(0, 1, len(fold))
+    x = (np.arange(_NODES) + 0.5) / _NODES
+    bases = [folded(basis_matrix(knots, x, derivative=k), np.array(fold)) for k in range(3)]
+    a, b, c = (basis.T @ basis / _NODES for basis in bases)
+    return a, b, c

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from .control_lattice import ControlLattice
-from .splines import DEGREE, Array
+from .splines import DEGREE, Array, tensor_product
 
 Index = NDArray[np.intp]
 
@@ -47,7 +47,10 @@ def grid_products(weights: Array, products_u: Array, products_v: Array) -> Array
     """
     left = products_u.reshape(len(products_u), -1).T
     right = products_v.reshape(len(products_v), -1)
-    return np.asarray(left @ weights @ right)
+    (k, m, n), a, b = weights.shape, len(left), right.shape[1]
+    if a * n * (m + b) < b * m * (n + a):
+        return np.asarray((left @ weights) @ right)
+    return np.asarray(left @ (weights.reshape(k * m, n) @ right).reshape(k, m, b))
 
 
 @dataclass(frozen=True)
@@ -58,39 +61,40 @@ class NormalMatrix:
     ----------
     unknown : (nu, nv, components) number of the unknown of each stored control point
     size, band : number of unknowns, and of superdiagonals
-    place, row_first : for every product of two control points' unknowns, in the order of `grid_products`: its place in
-        LAPACK's upper banded storage, and whether it lies on or above the diagonal; −1 past the sides of the lattice
-    diagonal : it lies on the diagonal
+    upper, upper_place : which products of two control points' unknowns, in the order of `grid_products`, lie on or above
+        the diagonal, and where in LAPACK's upper banded storage
+    both, both_place, both_scale : all products, the place of the entry or of its mirror image above the diagonal, and 2
+        on the diagonal, 1 elsewhere
     """
 
     unknown: Index
     size: int
     band: int
-    place: Index
-    row_first: NDArray[np.bool_]
-    diagonal: NDArray[np.bool_]
+    upper: Index
+    upper_place: Index
+    both: Index
+    both_place: Index
+    both_scale: Array
 
     def symmetric(self, products: Array) -> Array:
         """Banded matrix of products that are symmetric as a whole; (components², nu·7, nv·7) to (band + 1, size)."""
-        return self._scattered(products.ravel(), self.row_first)
+        return self._scattered(self.upper_place, products.ravel().take(self.upper))
 
     def symmetrised(self, products: Array) -> Array:
         """Banded matrix of products + their transpose; (components², nu·7, nv·7) to (band + 1, size)."""
-        values = products.ravel()
-        return self._scattered(np.where(self.diagonal, 2 * values, values), self.place >= 0)
+        return self._scattered(self.both_place, products.ravel().take(self.both) * self.both_scale)
 
     def right_side(self, values: Array, basis_u: Array, basis_v: Array) -> Array:
         """Bᵀ y for values on the grid, (m, n, components) to (size,)."""
-        gathered = np.einsum("ui,uvc,vj->ijc", basis_u, values, basis_v, optimize=["einsum_path", (0, 1), (0, 1)])
+        gathered = tensor_product(basis_u.T, basis_v.T, values)
         return np.bincount(self.unknown.ravel(), gathered.ravel(), self.size)
 
     def control_points(self, solution: Array) -> Array:
         """Stored control points of a solution, (size,) to (nu, nv, components)."""
         return solution[self.unknown]
 
-    def _scattered(self, values: Array, kept: NDArray[np.bool_]) -> Array:
-        flat = np.bincount(self.place[kept], values[kept], (self.band + 1) * self.size)
-        return flat.reshape(self.band + 1, self.size)
+    def _scattered(self, place: Index, values: Array) -> Array:
+        return np.bincount(place, values, (self.band + 1) * self.size).reshape(self.band + 1, self.size)
 
 
 def normal_matrix(lattice: ControlLattice, components: int) -> NormalMatrix:
@@ -103,10 +107,12 @@ def normal_matrix(lattice: ControlLattice, components: int) -> NormalMatrix:
     size = int(points.max() + 1) * components
     band = min((min(bands) + 1) * components - 1, size - 1)
     row, column = _pairs(unknown)
+    row, column = row.ravel(), column.ravel()
     low, high = np.minimum(row, column), np.maximum(row, column)
-    exists = low >= 0
-    place = np.where(exists, (band + low - high) * size + high, -1).ravel()
-    return NormalMatrix(unknown, size, band, place, (exists & (row <= column)).ravel(), (exists & (row == column)).ravel())
+    place = (band + low - high) * size + high
+    both = np.flatnonzero(low >= 0)
+    upper = both[row[both] <= column[both]]
+    return NormalMatrix(unknown, size, band, upper, place[upper], both, place[both], np.where(row == column, 2.0, 1.0)[both])
 
 
 def solve(matrix: Array, right_side: Array) -> Array:

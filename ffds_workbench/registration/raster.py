@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .face import FaceGeometry
-from .splines import Array, SplineSurface
+from .splines import Array, SplineSurface, basis_matrix, tensor_product
 from .trims import boundary_points, inside_trims
 
 Index = NDArray[np.intp]
@@ -22,7 +22,8 @@ _FEWEST, _MOST = 16, 256
 _LARGEST_TURN = 0.12
 """Largest turn of the normal along a cell in rad: the surface is taken as quadratic within one."""
 _FLAT = 1e-6
-_DEEP = 1e6
+DEEP = 3.0
+"""Distances from the trims are known up to this, in mm."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Raster:
     curvature : (m·n, 2) along them, in 1/mm, negative where the surface bulges outwards
     area : (m·n,) in mm²
     inside : (m·n,) the cell's centre lies on the trimmed face
-    depth : (m·n,) distance of the centre from the nearest trim in mm, negative off the material
+    depth : (m·n,) distance of the centre from the nearest trim in mm, at most `DEEP`, negative off the material
     """
 
     shape: tuple[int, int]
@@ -63,7 +64,7 @@ class Raster:
     @cached_property
     def table(self) -> Array:
         """Per cell, one row each: position, principal directions, normal, curvatures, and the steps in cells per mm along
-        the principal directions (x by 1, x by 2, y by 1, y by 2); (18, m·n)."""
+        the principal directions (x by 1, x by 2, y by 1, y by 2), and the centre's x and y; (20, m·n)."""
         gram = np.stack([dot(self.tangent_u, self.tangent_u), dot(self.tangent_u, self.tangent_v),
                          dot(self.tangent_v, self.tangent_v)])
         determinant = gram[0] * gram[2] - gram[1] ** 2
@@ -71,7 +72,7 @@ class Raster:
         dual_y = (gram[0][:, None] * self.tangent_v - gram[1][:, None] * self.tangent_u) / determinant[:, None]
         steps = [dot(dual, e) for dual in (dual_x, dual_y) for e in (self.principal_1, self.principal_2)]
         return np.concatenate([self.position.T, self.principal_1.T, self.principal_2.T, self.normal.T,
-                               self.curvature.T, np.stack(steps)])
+                               self.curvature.T, np.stack(steps), np.indices(self.shape).reshape(2, -1) + 0.5])
 
     @cached_property
     def turn(self) -> tuple[float, float]:
@@ -98,18 +99,23 @@ class Raster:
 
     def wrapped(self, x: Array, axis: int) -> Array:
         """Cell coordinates along one axis, brought into [0, m) where the direction is closed."""
-        return np.mod(x, self.shape[axis]) if self.periodic[axis] else x
+        if not self.periodic[axis]:
+            return x
+        count = self.shape[axis]
+        return x - count * np.floor(x * (1 / count))
 
     def cell(self, x: Array, y: Array) -> Index:
         """The cell of (n,) cell coordinates, −1 outside the parameter range."""
         i, j = (np.floor(self.wrapped(a, k)).astype(np.intp) for k, a in enumerate((x, y)))
         m, n = self.shape
+        for a, count, closed in zip((i, j), self.shape, self.periodic, strict=True):
+            if closed:
+                np.minimum(a, count - 1, out=a)
         outside = (i < 0) | (i >= m) | (j < 0) | (j >= n)
         i *= n
         i += j
         i[outside] = -1
         return i
-
 
     def gradient(self, f: Array) -> tuple[Array, Array]:
         """Central differences of (m·n,) values per cell; closed directions wrap."""
@@ -142,7 +148,9 @@ def make_raster(face: FaceGeometry, cells: int = 4096) -> Raster:
     inside = inside_trims(face, u, v).ravel()
     tangent_u, tangent_v = s_u * step[0], s_v * step[1]
     trims = boundary_points(face, 0.5 * float(np.sqrt(0.5 * (dot(tangent_u, tangent_u) + dot(tangent_v, tangent_v)).mean())))
-    depth = cKDTree(trims).query(position)[0] if len(trims) else np.full(len(position), _DEEP)
+    depth = np.full(len(position), DEEP)
+    if len(trims):
+        depth = np.minimum(cKDTree(trims).query(position, distance_upper_bound=DEEP)[0], DEEP)
     depth = np.where(inside, depth, -depth)
     return Raster(shape, corner, step, (surface.periodic_u, surface.periodic_v), flat, position, tangent_u, tangent_v,
                   normal, principal_1, principal_2, curvature, area * step[0] * step[1], inside, depth)
@@ -166,8 +174,10 @@ def _principal(s_u: Array, s_v: Array, normal: Array, second: tuple[Array, Array
 
 def frames(surface: SplineSurface, u: Array, v: Array) -> list[Array]:
     """S, S_u, S_v, S_uu, S_uv, S_vv on the grid u × v, each (len(u)·len(v), 3)."""
+    bases_u = [basis_matrix(surface.knots_u, u, surface.degree_u, k) for k in range(3)]
+    bases_v = [basis_matrix(surface.knots_v, v, surface.degree_v, k) for k in range(3)]
     orders = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
-    return [surface.derivative(*order).on_grid(u, v).reshape(-1, 3) for order in orders]
+    return [tensor_product(bases_u[a], bases_v[b], surface.control_points).reshape(-1, 3) for a, b in orders]
 
 
 def is_affine(surface: SplineSurface) -> bool:
@@ -186,15 +196,14 @@ def dot(a: Array, b: Array) -> Array:
 
 def _shape(surface: SplineSurface, cells: int) -> tuple[int, int]:
     u0, u1, v0, v1 = surface.range
-    u, v = np.linspace(u0, u1, 33), np.linspace(v0, v1, 33)
-    points = surface.on_grid(u, v)
-    normal = np.cross(surface.derivative(1, 0).on_grid(u, v), surface.derivative(0, 1).on_grid(u, v))
-    length = np.linalg.norm(normal, axis=2, keepdims=True)
-    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 1e-9 * length.max())
-    shape = []
+    u, v = np.linspace(u0, u1, 34), np.linspace(v0, v1, 34)
+    points, s_u, s_v = (f.reshape(34, 34, 3) for f in frames(surface, u, v)[:3])
+    normal = np.cross(s_u, s_v)[1:-1, 1:-1]
+    normal /= np.maximum(np.linalg.norm(normal, axis=2, keepdims=True), np.finfo(float).tiny)
     lengths = [np.linalg.norm(np.diff(points, axis=k), axis=2).sum(axis=k).mean() for k in (0, 1)]
+    shape = []
     for axis in (0, 1):
-        turn = np.linalg.norm(np.diff(normal, axis=axis), axis=2)[1:-1, 1:-1].sum(axis=axis).max()
+        turn = np.linalg.norm(np.diff(normal, axis=axis), axis=2).sum(axis=axis).max() * 33 / 31
         count = np.sqrt(cells * lengths[axis] / max(lengths[1 - axis], 1e-3 * lengths[axis]))
         shape.append(int(np.clip(max(round(count), turn / _LARGEST_TURN), _FEWEST, _MOST)))
     return shape[0], shape[1]

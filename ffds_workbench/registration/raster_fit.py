@@ -17,7 +17,7 @@ from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, newton_in_cells
 from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
 from .raster import Raster, dot
-from .splines import Array, SplineSurface, basis_matrix
+from .splines import Array, SplineSurface, basis_matrix, tensor_product
 from .start import SmallMotion, tukey
 
 Index = NDArray[np.intp]
@@ -137,8 +137,10 @@ class RasterFit:
             weight *= count
         cells = len(self.raster.inside)
         total = np.bincount(cell, weight, cells)
-        mean = np.divide(np.bincount(cell, weight * np.where(weight > 0, residual, 0.0), cells), total, out=np.zeros(cells), where=total > 0)
-        spread = np.abs(residual[weight > 0])
+        residual[weight == 0] = 0
+        mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
+        some = slice(None, None, max(1, len(residual) // self.settings.sample))
+        spread = np.abs(residual[some][weight[some] > 0])
         new_noise = 1.4826 * float(np.median(spread)) if len(spread) else noise
         data = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
@@ -185,28 +187,32 @@ class RasterFit:
     def _residuals(self, graph: _Graph, points: SurfaceCoordinates) -> tuple[Index, Array]:
         """Material cell of each point and its height over the current surface in mm, infinite off the face."""
         raster = self.raster
-        x, y = points.x, points.y
-        if raster.flat:
-            material_x, material_y = x, y
-        else:
-            nominal = np.maximum(raster.cell(x, y), 0)
-            material_x, material_y = x - graph.shift_x[nominal], y - graph.shift_y[nominal]
-        cell = raster.cell(material_x, material_y)
-        outside = cell < 0
-        cell[outside] = 0
-        i, j = np.divmod(cell, raster.shape[1])
-        dx = _nearest_turn(x - (i + 0.5) - graph.shift_x[cell], raster.shape[0], raster.periodic[0])
-        dy = _nearest_turn(y - (j + 0.5) - graph.shift_y[cell], raster.shape[1], raster.periodic[1])
-        residual = points.height - graph.height[cell] - graph.slope_x[cell] * dx - graph.slope_y[cell] * dy
-        residual[outside] = np.inf
+        cell, dx, dy = points.in_cell
+        outside = None
+        if not raster.flat:
+            material_x, material_y = points.x - graph.shift_x[cell], points.y - graph.shift_y[cell]
+            cell = raster.cell(material_x, material_y)
+            outside = cell < 0
+            cell[outside] = 0
+            i, j = np.divmod(cell, raster.shape[1])
+            dx = _nearest_turn(points.x - i - 0.5 - graph.shift_x[cell], raster.shape[0], raster.periodic[0])
+            dy = _nearest_turn(points.y - j - 0.5 - graph.shift_y[cell], raster.shape[1], raster.periodic[1])
+        residual = points.height - graph.height[cell]
+        residual -= graph.slope_x[cell] * dx
+        residual -= graph.slope_y[cell] * dy
+        if outside is not None:
+            residual[outside] = np.inf
         return cell, residual
 
     def _solve(self, row: Array, target: Array, data: Array, stiffness: float) -> Array:
         """Control points that minimise Σ data (row · d − target)² + bending + gauge."""
         shape, k = self.raster.shape, row.shape[1]
         settings = self.settings
-        grids = (row[:, :, None] * row[:, None] * data[:, None, None]).reshape(*shape, k * k).transpose(2, 0, 1)
-        matrix = self.layout.symmetric(grid_products(grids, self.products_u, self.products_v))
+        upper, block = np.triu_indices(k), np.zeros((k, k), dtype=np.intp)
+        block[upper] = block.T[upper] = np.arange(len(upper[0]))
+        grids = (row.T[upper[0]] * row.T[upper[1]] * data).reshape(-1, *shape)
+        products = grid_products(grids, self.products_u, self.products_v)[block.ravel()]
+        matrix = self.layout.symmetric(products)
         matrix += stiffness * settings.stiffness * self.bending + settings.gauge * self.gauge
         right = self.layout.right_side((row * (data * target)[:, None]).reshape(*shape, k), self.basis_u[0], self.basis_v[0])
         return self.layout.control_points(solve(matrix, right))
@@ -214,11 +220,10 @@ class RasterFit:
     def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> State:
         fields = []
         for a, b in ((0, 0), (1, 0), (0, 1)):
-            values = np.einsum("ui,ijc->ujc", self.basis_u[a], control_points)
-            values = np.einsum("ujc,vj->uvc", values, self.basis_v[b])
+            values = tensor_product(self.basis_u[a], self.basis_v[b], control_points)
             fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
         return State(*fields, control_points, weights, points, noise)
 
 
 def _nearest_turn(x: Array, period: int, periodic: bool) -> Array:
-    return np.mod(x + 0.5 * period, period) - 0.5 * period if periodic else x
+    return x - period * np.rint(x * (1 / period)) if periodic else x

@@ -61,8 +61,9 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         if best != size:
             fit = RasterFit(face, raster, displacement_lattice(face.surface, best), settings)
     noise = layers.noise
-    for stiffness, gate in settings.final:
-        state = fit.step(state, points, None, noise, stiffness, gate)
+    for k, (stiffness, gate) in enumerate(settings.final):
+        some = points.sample(settings.sample) if k == 0 else points
+        state = fit.step(state, some, None, noise, stiffness, gate)
         noise = state.noise
     return FaceRegistration(face.name, fit.field(state), state.points, coverage(raster, state.weights), state.noise)
 
@@ -91,7 +92,7 @@ def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: Robu
 
 
 def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates) -> None:
-    occupied = len(np.unique(fit.raster.cell(points.x, points.y)))
+    occupied = np.count_nonzero(np.bincount(points.in_cell[0]))
     if fit.lattice.free > occupied:
         rows, columns = fit.lattice.unknown.shape
         raise RefusedError(

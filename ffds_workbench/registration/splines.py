@@ -54,6 +54,13 @@ def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np
     return rows.indices[:: degree + 1].astype(np.intp), rows.data.reshape(-1, degree + 1)
 
 
+def tensor_product(basis_u: Array, basis_v: Array, control_points: Array) -> Array:
+    """Σ_ij N_i(u) N_j(v) P_ij on a grid, from the basis functions' values: (m, nu), (n, nv), (nu, nv, dim) to (m, n, dim)."""
+    nu, nv, dim = control_points.shape
+    along_u = (basis_u @ control_points.reshape(nu, nv * dim)).reshape(len(basis_u), nv, dim)
+    return np.asarray(basis_v @ along_u)
+
+
 @dataclass(frozen=True)
 class SplineSurface:
     """A tensor-product B-spline over (u, v): a surface in mm, or a displacement field on it.
@@ -102,7 +109,7 @@ class SplineSurface:
         """Values on the grid u × v (inside the range): (len(u), len(v), dim)."""
         bu = basis_matrix(self.knots_u, u, self.degree_u)
         bv = basis_matrix(self.knots_v, v, self.degree_v)
-        return np.einsum("ui,ijk,vj->uvk", bu, self.control_points, bv, optimize=True)
+        return tensor_product(bu, bv, self.control_points)
 
     def derivative(self, du: int, dv: int) -> SplineSurface:
         """The partial derivative, itself a B-spline of lower degree (NURBS Book, eq. 3.24)."""

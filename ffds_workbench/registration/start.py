@@ -42,6 +42,7 @@ class Layers:
     noise : estimated standard deviation of the points along the normal in mm; slopes within a block included
     density : points per mm² of face where the scan covers it
     block : cells along the side of a block
+    shape : cells of the raster
     """
 
     x: Array
@@ -51,10 +52,11 @@ class Layers:
     noise: float
     density: float
     block: int
+    shape: tuple[int, int]
 
     def as_points(self) -> SurfaceCoordinates:
         """The layers as if each were one scan point."""
-        return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height)
+        return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height, self.shape)
 
 
 def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
@@ -81,7 +83,7 @@ def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     member = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size) + np.repeat(start, size)
     x, y = (np.bincount(label, a[order][member]) / size for a in (points.x, points.y))
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density, edge)
+    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density, edge, raster.shape)
 
 
 @dataclass(frozen=True)
@@ -103,8 +105,7 @@ def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
     Motions are fitted from starts spread along the normal, with gates that narrow; the one that explains most blocks
     wins, the one nearer to the nominal where two explain about as many.
     """
-    cell = raster.cell(layers.x, layers.y)
-    cell = np.where(cell >= 0, cell, 0)
+    cell = layers.as_points().in_cell[0]
     centre = raster.position.mean(axis=0)
     size = max(float(np.ptp(raster.position, axis=0).max()), 1e-9)
     arm = (raster.position[cell] - centre) / size
@@ -134,7 +135,7 @@ def tukey(residual: Array, gate: float) -> Array:
 
 def _blocks(raster: Raster, points: SurfaceCoordinates) -> tuple[Index, int]:
     """Block of each point, and k: blocks have k × k cells, so that an occupied one holds about 16 points."""
-    i, j = points.x.astype(np.intp), points.y.astype(np.intp)
+    i, j = points.x.astype(np.int32), points.y.astype(np.int32)
     k = 1
     while True:
         columns = raster.shape[1] // k + 1
