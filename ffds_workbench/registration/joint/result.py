@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..splines import Array, SplineSurface
 
 Flag = Literal["observed", "bridged", "carried"]
@@ -22,8 +25,11 @@ class JointFace:
     points : scan points that carry weight
     coverage : share of the face's area that the scan observes, 0…1
     noise : standard deviation in mm of the scan about the face
-    flag : what the face as a whole rests on
-    band : half width of the 95 % band of the distance from the true surface, in mm, 95th percentile over the face
+    flag : what most of the face rests on
+    band : half width of the 95 % band of the distance from the true surface in mm, root mean square over the face
+    uv : (m, 2) places spread over the face
+    bands : (m,) half width of the 95 % band at each of them, in mm
+    flags : (m,) flag at each of them
     """
 
     name: str
@@ -33,6 +39,14 @@ class JointFace:
     noise: float
     flag: Flag
     band: float
+    uv: Array
+    bands: Array
+    flags: NDArray[np.str_]
+
+    @property
+    def lattice(self) -> tuple[int, int]:
+        """(N_i, N_j), the number of control points in u and in v."""
+        return self.displacement.control_points.shape[:2]
 
 
 @dataclass(frozen=True)
@@ -42,17 +56,17 @@ class EdgeRegistration:
     Attributes
     ----------
     name : "Edge12"
-    points : (m, 3) on the as-built edge, in mm
+    points : (m, 3) on the as-built edge, in mm, at equal steps of its parameter
     bands : (m,) half width of the 95 % band there, across the edge, in mm
     flags : (m,) flag there
-    flag : the weakest flag along the edge
-    band : the largest band along the edge, in mm
+    flag : what most of the edge rests on
+    band : root mean square of the bands, in mm
     """
 
     name: str
     points: Array
     bands: Array
-    flags: tuple[Flag, ...]
+    flags: NDArray[np.str_]
     flag: Flag
     band: float
 

@@ -23,6 +23,13 @@ class SensorProfile:
     sigma_correlated: float = 0.0
     length: float = 0.0
 
+    def inflation(self, noise: float, density: float) -> float:
+        """Ratio of the variance of a smooth fit to that on white noise alone: 1 + 2π l² σ_c² ρ/σ².
+
+        ``noise`` is the white noise in mm, ``density`` in points per mm².
+        """
+        return 1.0 + 2 * np.pi * self.length**2 * self.sigma_correlated**2 * density / noise**2
+
 
 @dataclass(frozen=True)
 class Stage:

@@ -85,13 +85,14 @@ def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, ar
     step = np.linalg.solve(metric, np.einsum("nax,nx->na", tangents, hit)[:, :, None])[:, :, 0]
     per_cell = lattices.step[span[near]] / np.sqrt(cells.inside.shape[1])
     good = (cosine < _OPPOSITE) & (depth > 0) & (np.abs(step / per_cell) < 1.0).all(axis=1)
-    uv, uv_back = _parameters(lattices, gauss, own_span, own), _parameters(lattices, cells, span[near], cell[near])
+    uv, uv_back = parameters(lattices, gauss, own_span, own), parameters(lattices, cells, span[near], cell[near])
     face = lattices.face_of_span
     table = np.column_stack([face[own_span], face[span[near]], uv, uv_back + step, depth, area[own_span, own]])
     return table[good & (table[:, 0] != table[:, 1])]
 
 
-def _parameters(lattices: Lattices, places: Places, span: Index, place: Index) -> Array:
+def parameters(lattices: Lattices, places: Places, span: Index, place: Index) -> Array:
+    """(u, v) of places given by span and number within the span: (n, 2)."""
     uv = np.zeros((len(span), 2))
     faces = lattices.face_of_span[span]
     corner = np.array([f.corner for f in lattices.faces])[faces]

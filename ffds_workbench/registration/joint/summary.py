@@ -1,4 +1,167 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""x"""
-def refuse_bad(problem, state): pass
-def summarise(problem, state): return problem, state
+"""Turns the last state of the joint solve into its result, or refuses it."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...errors import RefusedError
+from ..splines import Array
+from .bands import edge_bands, normal_bands
+from .cholesky import FrontCholesky
+from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
+from .isometry import is_isometric
+from .lattice import Index
+from .problem import Problem
+from .raster import normals
+from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidMotion
+from .samples import Samples, sample
+from .sheet import parameters
+from .state import State
+
+_NOT_CONVERGED = 0.5
+_FEWEST_USED = 50
+_LEAST_SHARE = 0.02
+_COLLAPSED = 0.1
+
+
+def refuse_bad(problem: Problem, state: State) -> None:
+    """Raise RefusedError where the result cannot be honest."""
+    inside = problem.cells.inside
+    position = problem.cells.nominal.position[inside]
+    size = float(np.linalg.norm(np.ptp(position, axis=0)))
+    jet = problem.cells.displaced(problem.lattices, state.control_points, 3)
+    moved = float(np.linalg.norm(jet.position[inside] - position, axis=1).max())
+    used = int(state.values.count.sum())
+    if used < _FEWEST_USED or used < _LEAST_SHARE * len(problem.scan):
+        raise RefusedError(f"Only {used} of {len(problem.scan)} scan points lie near the part: check the unit of the scan and "
+                           "align it first.")
+    if not np.isfinite(moved) or moved > size:
+        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({size:.0f} mm): align the scan "
+                           "first.")
+    if state.last_step > _NOT_CONVERGED:
+        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan does not "
+                           "hold the part; align it first, or freeze faces.")
+    area = normals(jet, problem.cells.outward)[1]
+    nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
+    turned = np.einsum("skx,skx->sk", normals(jet, problem.cells.outward)[0], _turned(problem, jet.position, nominal_normal))
+    folded = inside & ((turned <= 0) | (area < _COLLAPSED * nominal_area))
+    if folded.any():
+        face = problem.part.faces[problem.lattices.face_of_span[np.flatnonzero(folded.any(axis=1))[0]]].name
+        raise RefusedError(f"{face} would fold over: the scan does not determine it; freeze it or scan it better.")
+
+
+def _turned(problem: Problem, position: Array, normal: Array) -> Array:
+    """Nominal normals (spans, k, 3) turned with the rigid motion of their solid."""
+    result = normal.copy()
+    for solid in problem.part.solids:
+        spans = np.flatnonzero(np.isin(problem.lattices.face_of_span, solid))
+        result[spans] = normal[spans] @ _motion(problem, position, solid).T_asbuilt_nominal[:3, :3].T
+    return result
+
+
+def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
+    """Best rigid motion of a solid onto its as-built cells, weighted by area (Kabsch, Acta Cryst. A32, 1976)."""
+    spans = np.flatnonzero(np.isin(problem.lattices.face_of_span, solid))
+    weight = problem.area[spans].ravel()
+    a, b = (x[spans].reshape(-1, 3) for x in (problem.cells.nominal.position, position))
+    weight = weight / weight.sum()
+    centre_a, centre_b = weight @ a, weight @ b
+    u, _, v = np.linalg.svd((weight[:, None] * (b - centre_b)).T @ (a - centre_a))
+    rotation = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
+    motion = np.eye(4)
+    motion[:3, :3], motion[:3, 3] = rotation, centre_b - rotation @ centre_a
+    left = b - centre_b - (a - centre_a) @ rotation.T
+    return SolidMotion(motion, float(np.sqrt(weight @ (left**2).sum(axis=1))))
+
+
+def summarise(problem: Problem, state: State) -> JointRegistration:
+    """The result with bands and flags."""
+    inverse = FrontCholesky(problem.pattern.layout, state.equations.blocks).inverse_blocks()
+    seen = coverage(problem, state.values)
+    position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
+    return JointRegistration(
+        faces=_faces(problem, state, inverse, seen), edges=_edges(problem, state, inverse, seen),
+        solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
+        thickness=_thickness(problem, state), strain=state.strain, isometric=is_isometric(state),
+        iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()))
+
+
+def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
+    pairs = problem.couplings.pairs
+    measured = problem.couplings.measured_thickness(state.control_points)
+    result = []
+    for solid, nominal in zip(problem.part.solids, pairs.solid_thickness, strict=True):
+        own = np.isin(pairs.front.face, solid)
+        result.append(float(np.average(measured[own], weights=pairs.area[own])) if nominal and own.any() else None)
+    return tuple(result)
+
+
+def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[JointFace, ...]:
+    places, lattices = problem.stiffness.places, problem.lattices
+    jet = places.displaced(lattices, state.control_points, 3)
+    normal = normals(jet, places.outward)[0]
+    span, place = np.nonzero(places.inside)
+    face = lattices.face_of_span[span]
+    uv = parameters(lattices, places, span, place)
+    gap_inside = seen.gap_of(Samples(face, np.zeros((len(span), 0), dtype=np.intp), np.zeros((3, len(span), 0)),
+                                     places.nominal.values[span, place, :3].swapaxes(0, 1), np.ones(len(span))))
+    gap = np.zeros(places.inside.shape)
+    gap[span, place] = gap_inside
+    bands = normal_bands(problem, inverse, places.tables[0], normal, gap)[span, place]
+    flags = seen.flags(gap_inside, face, 2 * seen.near)
+    points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
+    result = []
+    for index, geometry in enumerate(problem.part.faces):
+        own = face == index
+        result.append(JointFace(geometry.name, lattices.spline(index, state.control_points), int(points[index]),
+                                float(seen.share[index]), float(state.noise[index]), _most(flags[own]),
+                                _rms(bands[own]), uv[own], bands[own], flags[own]))
+    return tuple(result)
+
+
+def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[EdgeRegistration, ...]:
+    part, lattices = problem.part, problem.lattices
+    sides, number = [], []
+    for pick in (0, -1):
+        face = np.concatenate([np.full(len(edge.points), edge.faces[pick]) for edge in part.edges if edge.faces])
+        uv = np.concatenate([edge.uv[pick] for edge in part.edges if edge.faces])
+        sides.append(sample(part.faces, lattices, face, uv))
+        number = np.concatenate([np.full(len(e.points), k) for k, e in enumerate(part.edges) if e.faces])
+    points = sides[0].nominal[0] + sides[0].displacement(state.control_points)
+    near = seen.edge_near(float(problem.margin.max()))
+    gaps = [seen.gap_of(side) for side in sides]
+    gap = np.maximum(np.minimum(*gaps) - near, 0.0)
+    flags = np.array(_better(seen.flags(gaps[0], sides[0].face, near), seen.flags(gaps[1], sides[1].face, near)))
+    bands = edge_bands(problem, inverse, sides[0], _directions(points, number), gap)
+    result = []
+    for index, edge in enumerate(part.edges):
+        own = number == index
+        result.append(EdgeRegistration(edge.name, points[own], bands[own], flags[own], _most(flags[own]), _rms(bands[own])))
+    return tuple(result)
+
+
+def _directions(points: Array, number: Index) -> Array:
+    after, before = np.roll(points, -1, axis=0), np.roll(points, 1, axis=0)
+    last, first = np.roll(number, -1) != number, np.roll(number, 1) != number
+    step = np.where(last[:, None], points, after) - np.where(first[:, None], points, before)
+    return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+
+
+def _better(first: Array, second: Array) -> Array:
+    """The stronger of two flags: an edge is observed if either of its faces is observed there."""
+    order = {OBSERVED: 0, BRIDGED: 1, CARRIED: 2}
+    rank = np.minimum([order[f] for f in first], [order[f] for f in second])
+    return np.array([OBSERVED, BRIDGED, CARRIED])[rank]
+
+
+def _most(flags: Array) -> Flag:
+    if not len(flags):
+        return CARRIED
+    names, count = np.unique(flags, return_counts=True)
+    return str(names[np.argmax(count)])  # type: ignore[return-value]
+
+
+def _rms(bands: Array) -> float:
+    return float(np.sqrt(np.mean(bands**2))) if len(bands) else float("inf")
+
+
