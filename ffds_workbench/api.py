@@ -34,9 +34,11 @@ from .brep import files, workpiece  # noqa: E402
 from .brep.field import local_displacements  # noqa: E402
 from .brep.files import Model  # noqa: E402
 from .brep.rebuild import rebuild  # noqa: E402
+from .brep.simulation import Simulation, simulate_shape  # noqa: E402
 from .brep.workpiece import Workpiece  # noqa: E402
 from .errors import FfdsError, InputError, RefusedError  # noqa: E402
 from .output import check_writable, replacing  # noqa: E402
+from .registration.ffd import register_ffd  # noqa: E402
 from .registration.ffds import register_ffds  # noqa: E402
 from .registration.result import FaceRegistration  # noqa: E402
 from .registration.robust import register_robust  # noqa: E402
@@ -48,11 +50,14 @@ from .report.stopwatch import Stopwatch  # noqa: E402
 from .scan import files as scan_files  # noqa: E402
 from .scan.cloud import PointCloud  # noqa: E402
 from .scan.plausibility import check_overlap  # noqa: E402
+from .scan.sensor import SensorSettings, View  # noqa: E402
+from .scan.sensor.files import write_ply  # noqa: E402
 
-__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "deviation",
-           "read_model", "read_scan", "register", "write", "write_deviation"]
+__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "SensorSettings",
+           "Simulation", "View", "deviation", "read_model", "read_scan", "register", "simulate", "write",
+           "write_deviation", "write_simulation"]
 
-METHODS = ("robust", "ffds")
+METHODS = ("robust", "ffds", "ffd-hsu")
 Progress = Callable[[str], None]
 Lattice = tuple[int, int] | str
 
@@ -130,10 +135,10 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
     model : a `Model`, a shape or a document object
     scan : a `PointCloud`, or (n, 3) points in mm, aligned with the model
     faces : names like "Face6", numbered as FreeCAD numbers the shape; None for every face that the scan observes
-    method : "robust", or "ffds" for the published algorithm
-    lattice : (N_i, N_j) control points per face, or "auto"; "ffds" then takes 10 × 10
+    method : "robust", "ffds" for the published algorithm, or "ffd-hsu" for a lattice in space around each face
+    lattice : (N_i, N_j) control points per face, or "auto"; "ffds" and "ffd-hsu" then take 10 × 10
     freeze : names of faces that must not move
-    source_points : of method "ffds", on each face
+    source_points : of methods "ffds" and "ffd-hsu", on each face
     progress : called with what is being done
 
     Raises
@@ -232,6 +237,28 @@ def write_deviation(result: Deviation, report: str | Path | None = None, picture
             _draw(target[1], result.model, result.scan, result.faces, [panel])
 
 
+def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None = None) -> Simulation:
+    """Scan a model with the virtual sensor: ``.scan.points`` (n, 3) in mm, and ``.truth``.
+
+    ``SensorSettings(views=(View((0, 0, 1)),), noise=0.13, seed=1)`` is one shot from above.
+
+    Raises
+    ------
+    InputError, RefusedError : the model cannot be used, or the views see nothing of it
+    """
+    return simulate_shape(_as_model(model).shape, settings or SensorSettings())
+
+
+def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
+                     inputs: Sequence[str | Path] = ()) -> None:
+    """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
+    outputs = _outputs((out, truth), inputs)
+    with replacing(*outputs.values()) as temporary:
+        write_ply(temporary[0], simulation.scan.points)
+        if truth is not None:
+            simulation.truth.write(temporary[1])
+
+
 def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:
     """Refuse destinations that cannot be written, before any work is done (InputError)."""
     _outputs(paths, inputs)
@@ -319,8 +346,9 @@ def _register_faces(part: Workpiece, cloud: PointCloud, wanted: Sequence[int] | 
 def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, lattice: Lattice,
                    source_points: int) -> FaceRegistration:
     face = part.geometry(index)
-    if method == "ffds":
-        return register_ffds(face, cloud.points, _PAPER_LATTICE if lattice == "auto" else lattice, source_points)
+    if method in ("ffds", "ffd-hsu"):
+        published = register_ffds if method == "ffds" else register_ffd
+        return published(face, cloud.points, _PAPER_LATTICE if lattice == "auto" else lattice, source_points)
     return register_robust(face, cloud.points, None if lattice == "auto" else lattice)
 
 

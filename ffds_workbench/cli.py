@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from . import RESOURCES, __version__
+from . import RESOURCES, __version__, cli_simulate
 from .benchmark import NAMES as BENCHMARKS
 from .errors import FfdsError, InputError, RefusedError
 from .scan.units import MILLIMETRES
@@ -90,6 +90,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     _add_register(commands)
     _add_deviation(commands)
+    cli_simulate.add(commands)
     _add_demo(commands)
     _add_benchmark(commands)
     return parser
@@ -113,11 +114,11 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
                          help="faces to deform (default: every face that the scan observes)")
     command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
                          help="faces that must not move")
-    command.add_argument("--method", choices=["robust", "ffds"], default="robust", help="default: robust")
+    command.add_argument("--method", choices=["robust", "ffds", "ffd-hsu"], default="robust", help="default: robust")
     command.add_argument("--lattice", type=_lattice, default="auto", metavar="NIxNJ",
                          help="control points per face, for instance 10x10 (default: auto)")
     command.add_argument("--source-points", type=_count, default=400, metavar="N",
-                         help="source points per face of method ffds (default: 400)")
+                         help="source points per face of methods ffds and ffd-hsu (default: 400)")
     command.set_defaults(run=register)
 
 

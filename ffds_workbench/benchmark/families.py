@@ -15,12 +15,11 @@ import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 
-from ..brep import workpiece
+from ..brep.simulation import edge_points, target_of
 from ..scan.sensor import SensorSettings, SimulatedScan, Target, Truth, View, make_truth, simulate
-from ..scan.sensor.truth import EDGE_SAMPLES
+from ..scan.sensor.files import write_ply
 from . import warps
 from .parts import FAMILIES, FamilyPart
-from .profile import Array
 
 WARPS = ("iso", "springback", "mix", "bumps", "twist", "bend")
 SCANS: dict[str, dict[str, float]] = {
@@ -82,9 +81,7 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     rng = np.random.default_rng([seed, sorted(FAMILIES).index(family), WARPS.index(warp)])
     part = through_step(FAMILIES[family](rng))
     move = deformation(part, warp, amplitude, rng)
-    piece = workpiece.read(part.shape)
-    faces = [piece.geometry(i) for i in range(len(piece.faces))]
-    target = Target(faces, {i: lambda uv, points: move(points) - points for i in range(len(faces))})
+    target = target_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
     directions = part.views[:1] if scan_name == "one-view" else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
     views = tuple(View(tuple(direction)) for direction in directions)
@@ -132,21 +129,3 @@ def through_step(part: FamilyPart) -> FamilyPart:
     if shape.ShapeType == "Compound" and len(shape.childShapes()) == 1:
         shape = shape.childShapes()[0]
     return replace(part, shape=shape)
-
-
-def edge_points(shape: Part.Shape, count: int = EDGE_SAMPLES) -> Array:
-    """Points along every edge in the shape's order, (edges, count, 3); a degenerate edge is its vertex."""
-    lines = []
-    for edge in shape.Edges:
-        if edge.Degenerated:
-            lines.append([tuple(edge.Vertexes[0].Point)] * count)
-        else:
-            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, count)])
-    return np.array(lines)
-
-
-def write_ply(path: Path, points: Array) -> None:
-    """Points (n, 3) as a binary PLY of doubles."""
-    header = ("ply\nformat binary_little_endian 1.0\n"
-              f"element vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\nend_header\n")
-    path.write_bytes(header.encode() + np.ascontiguousarray(points, dtype="<f8").tobytes())

@@ -11,9 +11,10 @@ import pytest
 from scipy.spatial import cKDTree
 
 from ffds_workbench.benchmark import warps
-from ffds_workbench.benchmark.families import WARPS, deformation, edge_points, make_case
+from ffds_workbench.benchmark.families import WARPS, deformation, make_case
 from ffds_workbench.benchmark.parts import FAMILIES
 from ffds_workbench.benchmark.profile import Piece, Profile
+from ffds_workbench.brep.simulation import edge_points
 
 HAT = Profile((Piece(15), Piece(8, 1.4), Piece(20), Piece(8, -1.4), Piece(30), Piece(8, -1.4), Piece(20), Piece(8, 1.4),
                Piece(15)), 2.0)

@@ -111,6 +111,8 @@ def test_gaps_outliers_and_dropouts():
     assert inliers.sum() < len(whole.points) - 3 * 0.25 * np.pi * 3**2 / 0.09
     beside = simulate(target, SensorSettings(spacing=0.3, noise=0.0, views=(UP,), edge_dropout=1.0)).points
     assert beside[:, :2].min() > 0.3 and beside[:, :2].max() < 59.7
+    everywhere = simulate(target, SensorSettings(spacing=0.3, noise=0.0, edge_dropout=1.0)).points
+    assert everywhere[:, :2].min() > 0.95 and everywhere[:, :2].max() < 59.05
     table = simulate(target, SensorSettings(spacing=0.3, noise=0.0, views=(UP,), table=2.0))
     assert np.allclose(table.points[table.face == -2][:, 2], -2.0)
 

@@ -40,8 +40,8 @@ class SensorSettings:
     standoff : distance of the camera from the aim
     limit : largest number of points of a shot
     grazing : surfaces seen at less than this angle to the line of sight give no points
-    edge_dropout : probability that a point beside a jump in depth is lost (needs views)
-    edge_band : width of the strip beside a jump, in the picture
+    edge_dropout : probability that a point beside a jump in depth is lost; without views, beside a face's boundary
+    edge_band : width of that strip, in the picture or on the face
     holes, hole_radius : number of round gaps in the scan, and the range of their radii
     outliers : gross outliers as a share of the other points, uniform in the scan's box grown by ``outlier_margin``
     table : distance of a flat background behind the part, square to the first view (needs views); None: no background
@@ -71,14 +71,17 @@ class SensorSettings:
     seed: int = 0
 
     def __post_init__(self) -> None:
+        if not np.isfinite([self.spacing, self.noise, self.correlation, self.pose_error, self.pose_error_angle]).all():
+            raise InputError("Spacing, noise, correlation and pose error of a simulated scan are finite numbers.")
         if not self.spacing > 0:
-            raise InputError(f"the spacing of a simulated scan must be positive, not {self.spacing:g} mm")
-        if min(self.noise, self.correlation, self.pose_error, self.pose_error_angle, self.edge_band) < 0:
-            raise InputError("noise, correlation, edge band and pose error of a simulated scan cannot be negative")
-        for name in ("outliers", "edge_dropout", "correlated_share"):
-            if not 0 <= getattr(self, name) <= 1:
-                raise InputError(f"'{name}' of a simulated scan is a share between 0 and 1, not {getattr(self, name):g}")
-        if any(not np.linalg.norm(view.direction) > 0 for view in self.views):
-            raise InputError("a view needs a direction from the part to the camera: 0,0,0 is none")
-        if not self.views and (self.edge_dropout or self.table is not None):
-            raise InputError("edge dropouts and a table are seen by a camera: name at least one view")
+            raise InputError(f"The spacing of a simulated scan must be positive, not {self.spacing:g} mm.")
+        if min(self.noise, self.correlation, self.pose_error, self.pose_error_angle, self.edge_band, self.holes) < 0:
+            raise InputError("Noise, correlation, holes, edge band and pose error of a simulated scan cannot be negative.")
+        for name, share in (("outliers", self.outliers), ("dropout", self.edge_dropout),
+                            ("correlated share", self.correlated_share)):
+            if not 0 <= share <= 1:
+                raise InputError(f"The {name} of a simulated scan is a share between 0 and 1, not {share:g}.")
+        if any(not (np.isfinite(view.direction).all() and np.linalg.norm(view.direction) > 0) for view in self.views):
+            raise InputError("A view needs a direction from the part to the camera: 0,0,0 is none.")
+        if self.table is not None and not self.views:
+            raise InputError("A table is seen by a camera: name at least one view.")

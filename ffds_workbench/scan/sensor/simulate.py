@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ...registration.splines import Array
@@ -60,7 +61,7 @@ def simulate(target: Target, settings: SensorSettings) -> SimulatedScan:
     if not settings.views:
         shots = [_everywhere(target, settings, rng)]
     if not any(len(shot.points) for shot in shots):
-        raise RefusedError("the views see nothing of the part: turn or aim them at it")
+        raise RefusedError("The views see nothing of the part: turn or aim them at it.")
     poses = tuple(errors.pose_error(target.centre, settings.pose_error, settings.pose_error_angle, rng) for _ in shots)
     points = np.concatenate([shot.points @ T[:3, :3].T + T[:3, 3] for shot, T in zip(shots, poses, strict=True)])
     face = np.concatenate([shot.face for shot in shots])
@@ -93,6 +94,10 @@ def in_field(picture: Array, settings: SensorSettings) -> NDArray[np.bool_]:
 
 def _everywhere(target: Target, settings: SensorSettings, rng: np.random.Generator) -> _Shot:
     samples = target.sample(settings.spacing**-2, rng)
+    if settings.edge_dropout:
+        boundary = target.boundary(0.25 * settings.edge_band)
+        beside = np.isfinite(cKDTree(boundary).query(samples.points, distance_upper_bound=settings.edge_band)[0])
+        samples = samples[~(beside & (rng.random(len(samples)) < settings.edge_dropout))]
     heights = errors.noise(samples.points, settings.noise, settings.correlation, settings.correlated_share, rng)
     return _Shot(samples.points + heights[:, None] * samples.normals, samples.face)
 

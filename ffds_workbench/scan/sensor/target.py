@@ -100,6 +100,23 @@ class Target:
         found = [cells.sample(self, i, d, rng) for i, (cells, d) in enumerate(zip(self.cells, per_face, strict=True))]
         return Samples(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
+    def boundary(self, step: float) -> Array:
+        """Points along the trims of all faces, no farther apart than ``step`` mm; seams are no boundary; (n, 3)."""
+        found = [np.empty((0, 3))]
+        for i, face in enumerate(self.faces):
+            for polyline in face.trims:
+                start, end = polyline[:-1], polyline[1:]
+                real = ~_on_seam(face, start, end)
+                start, end = start[real], end[real]
+                length = np.linalg.norm(self.points(i, end) - self.points(i, start), axis=1)
+                middle = self.points(i, 0.5 * (start + end))
+                length = np.maximum(length, 2 * np.linalg.norm(middle - self.points(i, start), axis=1))
+                pieces = np.ceil(length / step).astype(int)
+                segment = np.repeat(np.arange(len(start)), pieces)
+                share = (np.arange(len(segment)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[segment]
+                found.append(self.points(i, start[segment] + share[:, None] * (end - start)[segment]))
+        return np.concatenate(found)
+
     def grid(self, step: float) -> Array:
         """Regular points no farther apart than ``step`` mm, on all faces, boundaries left out; (n, 3)."""
         return np.concatenate([cells.grid(self, i, step) for i, cells in enumerate(self.cells)])
@@ -137,6 +154,17 @@ class _Cells:
         uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
         kept = inside_trims(target.faces[index].trims, uv)
         return target.on_grid(index, u, v).reshape(-1, 3)[kept]
+
+
+def _on_seam(face: FaceGeometry, start: Array, end: Array) -> NDArray[np.bool_]:
+    """Which pieces of a trim, (k, 2) each, run along the seam of a closed direction; (k,)."""
+    u0, u1, v0, v1 = face.surface.range
+    seam = np.zeros(len(start), dtype=bool)
+    for axis, closed, low, high in ((0, face.surface.periodic_u, u0, u1), (1, face.surface.periodic_v, v0, v1)):
+        if closed:
+            for side in (low, high):
+                seam |= np.abs(np.stack([start, end])[:, :, axis] - side).max(axis=0) < 1e-7 * (high - low)
+    return seam
 
 
 def _divided(lines: Array, sides: Array, step: float) -> Array:
