@@ -26,7 +26,7 @@ from ..registration.splines import Array
 GAP_LIMIT = 1e-4
 """Largest edge gap beyond the nominal's own in mm."""
 TOLERANCE_LIMIT = 1e-3
-"""Largest tolerance in mm, where the nominal's own is not larger."""
+"""Largest tolerance in mm, where neither the nominal's own nor its edge gap (which a tolerance has to cover) is larger."""
 _UNIFORM_SAMPLES = 65
 _SAMPLES_PER_SPAN = 2
 
@@ -89,6 +89,11 @@ class Certificate:
         """Largest edge gap beyond the nominal's own in mm."""
         return max(0.0, self.after.max_edge_gap - self.before.max_edge_gap)
 
+    @property
+    def tolerance_line(self) -> float:
+        """What the largest tolerance may be, in mm."""
+        return max(self.before.max_tolerance, self.before.max_edge_gap + GAP_LIMIT, TOLERANCE_LIMIT)
+
     def broken(self) -> list[str]:
         """One sentence for everything that forbids to hand the shape out; empty if nothing does."""
         before, after = self.before.topology.counts, self.after.topology.counts
@@ -110,7 +115,7 @@ class Certificate:
         if self.excess_gap > GAP_LIMIT:
             sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
                              f"{self.after.max_edge_gap:.2g} mm.")
-        if self.after.max_tolerance > max(self.before.max_tolerance, TOLERANCE_LIMIT):
+        if self.after.max_tolerance > self.tolerance_line:
             sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
                              f"{self.after.max_tolerance:.2g} mm.")
         errors = self.before.boolean_check, self.after.boolean_check
@@ -151,10 +156,11 @@ def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None
         None leaves it out
     """
     checks = (None, None) if boolean_limit is None else boolean_checks((nominal, result), boolean_limit)
-    return Certificate(_condition(nominal, checks[0]), _condition(result, checks[1]))
+    return Certificate(condition(nominal, checks[0]), condition(result, checks[1]))
 
 
-def _condition(shape: Part.Shape, boolean_check: int | None) -> Condition:
+def condition(shape: Part.Shape, boolean_check: int | None = None) -> Condition:
+    """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`."""
     return Condition(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells),
                      max_edge_gap(shape), max_tolerance(shape), boolean_check)
 
