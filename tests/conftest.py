@@ -45,3 +45,21 @@ def ffds(tmp_path: Path):
                               stdin=subprocess.DEVNULL, capture_output=True, **options)
 
     return run
+
+
+@pytest.fixture(scope="session")
+def plate(tmp_path_factory) -> tuple[Path, Path]:
+    """A plate of 60 × 40 × 5 mm as STEP, and a scan of its upper face (Face6) with a bump: (model, scan).
+
+    The bump is 1 mm high, the noise 0.05 mm along z; every point lies on the analytic surface but for that.
+    """
+    import numpy as np
+    import Part
+
+    folder = tmp_path_factory.mktemp("plate")
+    Part.makeBox(60, 40, 5).exportStep(str(folder / "plate.step"))
+    random = np.random.default_rng(0)
+    x, y = random.uniform((0, 0), (60, 40), (8000, 2)).T
+    z = 5 + np.exp(-((x - 30) ** 2 + (y - 20) ** 2) / (2 * 12**2)) + random.normal(0, 0.05, 8000)
+    np.savetxt(folder / "scan.xyz", np.stack([x, y, z], axis=1), fmt="%.6f")
+    return folder / "plate.step", folder / "scan.xyz"

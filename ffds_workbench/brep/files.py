@@ -7,6 +7,8 @@ stands in the document (its placement and those of the parts that hold it applie
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -119,13 +121,25 @@ def _placed_shape(item: object) -> Part.Shape:
 def _read_document(path: Path, label: str | None) -> Model:
     if not zipfile.is_zipfile(path):
         raise InputError(f"The model {path} is damaged or not a FreeCAD document.")
+    with _opened(path) as document:
+        item = _pick(path, document, label)
+        colours = document_colours.read(path, item.Name)
+        return Model(_placed_shape(item), item.Label, Decoration(colours=colours))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[FreeCAD.Document]:
+    """The document of a file: the one that is open already and stays so, or one opened for the moment."""
+    for document in FreeCAD.listDocuments().values():
+        if document.FileName and Path(document.FileName).resolve() == path.resolve():
+            yield document
+            return
     try:
         document = FreeCAD.openDocument(str(path), hidden=True)
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
         raise InputError(f"The model {path} is damaged or not a FreeCAD document.") from error
     try:
-        item = _pick(path, document, label)
-        return Model(_placed_shape(item), item.Label, Decoration(colours=document_colours.read(path, item.Name)))
+        yield document
     finally:
         FreeCAD.closeDocument(document.Name)
 

@@ -8,11 +8,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .statistics import statistics
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import PathCollection
 
 Array = NDArray[np.float64]
 
@@ -73,7 +78,8 @@ def draw(path: Path, title: str, points: Array, normals: Array, panels: Sequence
 def _colour_limit(panels: Sequence[Panel]) -> float:
     """Half the colour scale: nearly all of the worse state, rounded to a readable number."""
     size = max(float(np.percentile(np.abs(panel.deviations), 97)) for panel in panels)
-    step = 10.0 ** np.floor(np.log10(max(size, 1e-6)))
+    size = max(size, 1e-6)
+    step = 10.0 ** np.floor(np.log10(size))
     return float(np.ceil(size / step * 2) / 2 * step)
 
 
@@ -97,7 +103,8 @@ def _common_box(points: Array, panels: Sequence[Panel], view: Array) -> tuple[Ar
     return low - margin, high + margin
 
 
-def _draw_view(axes, points: Array, panel: Panel, view: Array, limit: float, box: tuple[Array, Array]):  # type: ignore[no-untyped-def]
+def _draw_view(axes: Axes, points: Array, panel: Panel, view: Array, limit: float, box: tuple[Array, Array]
+               ) -> PathCollection:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
 
@@ -123,7 +130,7 @@ def _draw_view(axes, points: Array, panel: Panel, view: Array, limit: float, box
     return coloured
 
 
-def _scale_bar(axes, box: tuple[Array, Array]) -> None:  # type: ignore[no-untyped-def]
+def _scale_bar(axes: Axes, box: tuple[Array, Array]) -> None:
     width = box[1][0] - box[0][0]
     step = 10.0 ** np.floor(np.log10(width / 4))
     length = next(step * factor for factor in (5, 2, 1) if step * factor <= width / 4)
@@ -132,7 +139,7 @@ def _scale_bar(axes, box: tuple[Array, Array]) -> None:  # type: ignore[no-untyp
     axes.text(x + length / 2, y + 0.01 * width, f"{length:g} mm", ha="center", va="bottom", fontsize=9, color=_INK)
 
 
-def _draw_histogram(axes, panels: Sequence[Panel], limit: float) -> None:  # type: ignore[no-untyped-def]
+def _draw_histogram(axes: Axes, panels: Sequence[Panel], limit: float) -> None:
     bins = np.linspace(-1.3 * limit, 1.3 * limit, 131)
     for panel, colour in zip(panels, (_BEFORE, _AFTER) if len(panels) > 1 else (_AFTER,), strict=True):
         share = np.full(len(panel.deviations), 100.0 / len(panel.deviations))

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The scripting surface on shapes and document objects, as it is used in FreeCAD's Python console."""
+from __future__ import annotations
+
+import FreeCAD
+import numpy as np
+import Part
+import pytest
+
+from ffds_workbench import api
+
+NOISE = 0.05
+
+
+def _bump(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return np.exp(-((x - 30) ** 2 + (y - 20) ** 2) / (2 * 12**2))
+
+
+@pytest.fixture(scope="module")
+def scan() -> np.ndarray:
+    """Points on the bumped top of a plate of 60 × 40 × 5 mm."""
+    random = np.random.default_rng(1)
+    x, y = random.uniform((0, 0), (60, 40), (8000, 2)).T
+    return np.stack([x, y, 5 + _bump(x, y) + random.normal(0, NOISE, 8000)], axis=1)
+
+
+@pytest.mark.parametrize("method", ["robust", "ffds"])
+def test_a_shape_and_an_array(scan, method):
+    lattice = (7, 6) if method == "ffds" else "auto"
+    result = api.register(Part.makeBox(60, 40, 5), scan, ["Face6"], method=method, lattice=lattice)
+    x, y = np.meshgrid(np.linspace(4, 56, 14), np.linspace(4, 36, 9))
+    top = result.shape.Faces[5]
+    off = [abs(top.distToShape(Part.Vertex(a, b, 5 + _bump(a, b)))[0]) for a, b in zip(x.flat, y.flat, strict=True)]
+    # robust: 0.05 mm / √(8000 / 100 degrees of freedom) = 0.006; ffds carries the noise of its 400 neighbours
+    assert np.mean(off) < {"robust": 0.012, "ffds": 0.04}[method]
+    assert result.certificate.problems() == []
+    assert "before" in result.table()
+
+
+def test_an_object_is_deformed_where_it_stands(scan):
+    placement = FreeCAD.Placement(FreeCAD.Vector(100, -50, 20), FreeCAD.Rotation(FreeCAD.Vector(1, 1, 0), 35))
+    document = FreeCAD.newDocument("Api", hidden=True, temp=True)
+    try:
+        plate = document.addObject("Part::Box", "Plate")
+        plate.Length, plate.Width, plate.Height = 60, 40, 5
+        plate.Placement = placement
+        document.recompute()
+        matrix = np.array(placement.toMatrix().A).reshape(4, 4)
+        result = api.register(plate, scan @ matrix[:3, :3].T + matrix[:3, 3], ["Face6"])
+        assert result.model.label == "Plate"
+        np.testing.assert_allclose(result.shape.Placement.toMatrix().A, placement.toMatrix().A, atol=1e-9)
+        peak = placement.multVec(FreeCAD.Vector(30, 20, 6))
+        assert result.shape.distToShape(Part.Vertex(peak))[0] < 3 * NOISE / 3  # the top of the bump, well fitted
+        assert plate.Shape.Volume == pytest.approx(12000)
+    finally:
+        FreeCAD.closeDocument(document.Name)
+
+
+def test_frozen_faces_stay_as_they_are(scan):
+    box = Part.makeBox(60, 40, 5)
+    result = api.register(box, scan, ["Face6"], freeze=["Face1", "Face5"])
+    for index in (0, 4):
+        assert isinstance(result.shape.Faces[index].Surface, Part.Plane)
+        assert result.shape.Faces[index].Area == pytest.approx(box.Faces[index].Area, rel=1e-9)
+
+
+def test_deviation_of_an_array():
+    points = np.random.default_rng(0).uniform((1, 1, 5.2), (59, 39, 5.2), (500, 3))
+    figures = api.deviation(Part.makeBox(60, 40, 5), points).report["deviation"]
+    assert figures["signed_mean"] == pytest.approx(0.2, abs=1e-9)
+
+
+def test_progress_is_told(scan):
+    told: list[str] = []
+    api.deviation(Part.makeBox(60, 40, 5), scan, told.append)
+    assert told
+
+
+@pytest.mark.parametrize(("arguments", "message"), [({"method": "magic"}, "unknown"), ({"lattice": (3, 8)}, "4 or more"),
+                                                    ({"faces": []}, "No face"), ({"faces": ["Face9"]}, "no Face9"),
+                                                    ({"freeze": ["Face9"]}, "no Face9")])
+def test_requests_that_cannot_be_read(scan, arguments, message):
+    with pytest.raises(api.InputError, match=message):
+        api.register(Part.makeBox(60, 40, 5), scan, **arguments)
+
+
+def test_an_array_of_another_shape():
+    with pytest.raises(api.InputError, match=r"\(n, 3\)"):
+        api.deviation(Part.makeBox(1, 1, 1), np.zeros((5, 2)))
