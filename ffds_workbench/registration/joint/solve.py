@@ -16,6 +16,7 @@ from ..splines import Array
 from .assembly import border_equations, data_equations, shape_equations
 from .boundary import find_borders, near_edges
 from .correspondence import correspond, make_frames
+from .ends import exact_ends
 from .isometry import isometry_weights
 from .part import JointPart
 from .problem import Problem, make_problem
@@ -62,6 +63,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
         state = transfer(coarse, problem, state)
         for stage in steps[-2:]:
             state = run_stage(problem, stage, state)
+    state = replace(state, control_points=exact_ends(part, problem.lattices, state.control_points))
     refuse_bad(problem, state)
     return summarise(problem, state)
 
