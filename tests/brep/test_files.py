@@ -146,7 +146,7 @@ def test_shapes_that_cannot_be_used_are_refused():
 
 
 def test_shared_parts_keep_their_faces_through_step(shared_data, tmp_path):
-    for name in ("screw.step", "linkrods.step", "revolved_sphere.step"):
+    for name in ("screw.step", "sliced_cylinder.step", "revolved_sphere.step"):
         model = files.read(shared_data / "parts" / name)
         files.write(model, tmp_path / name)
         _same_faces(files.read(tmp_path / name).shape, model.shape)
