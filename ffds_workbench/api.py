@@ -9,6 +9,8 @@ In FreeCAD's Python console, with a part selected or at hand::
     print(result.table())                                   # deviation and topology, before and after
     Part.show(result.shape)
     api.write(result, "as_built.step", report="as_built.json", picture="as_built.png")
+    plan = api.plan_seams(result.shape, auto=0.5, nominal=App.ActiveDocument.Bracket)
+    api.write_seams(plan, ["weld.src", "weld.csv"])
 
 Models are files, shapes or document objects alike; objects are taken where they stand in their document. Errors are
 `InputError` (the request cannot be read) and `RefusedError` (no honest result), each with one sentence that says why.
@@ -52,10 +54,16 @@ from .scan.cloud import PointCloud  # noqa: E402
 from .scan.plausibility import check_overlap  # noqa: E402
 from .scan.sensor import SensorSettings, View  # noqa: E402
 from .scan.sensor.files import write_ply  # noqa: E402
+from .seams.carry import carry  # noqa: E402
+from .seams.measured import SeamLimits  # noqa: E402
+from .seams.plan import check_seam_outputs, plan_seams, write_seams  # noqa: E402
+from .seams.programs.moves import RobotSettings, read_frame_choice  # noqa: E402
+from .seams.settings import SeamSettings  # noqa: E402
 
-__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "SensorSettings",
-           "Simulation", "View", "deviation", "read_model", "read_scan", "register", "simulate", "write",
-           "write_deviation", "write_simulation"]
+__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "RobotSettings",
+           "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "carry", "check_seam_outputs",
+           "deviation", "plan_seams", "read_frame_choice", "read_model", "read_scan", "register", "simulate", "write",
+           "write_deviation", "write_seams", "write_simulation"]
 
 METHODS = ("robust", "ffds", "ffd-hsu")
 Progress = Callable[[str], None]

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from . import RESOURCES, __version__, cli_simulate
+from . import RESOURCES, __version__, cli_seams, cli_simulate
 from .benchmark import NAMES as BENCHMARKS
 from .errors import FfdsError, InputError, RefusedError
 from .scan.units import MILLIMETRES
@@ -91,6 +91,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_register(commands)
     _add_deviation(commands)
     cli_simulate.add(commands)
+    cli_seams.add(commands)
     _add_demo(commands)
     _add_benchmark(commands)
     return parser

@@ -13,7 +13,7 @@ from .terminal import ProgressLine
 LIMITS = ("lateral", "normal", "longitudinal", "gap", "opening", "rotation")
 
 
-def add_commands(commands: argparse._SubParsersAction) -> None:
+def add(commands: argparse._SubParsersAction) -> None:
     """Add both commands to the command line's parser."""
     _add_seams(commands)
     _add_carry(commands)

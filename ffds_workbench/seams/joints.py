@@ -21,6 +21,7 @@ _SAMPLES = 33
 _ALONG = np.sin(np.deg2rad(20.0))
 _LEAST_OPENING = np.deg2rad(20.0)
 _FLAT = np.deg2rad(150.0)
+_LARGE = 0.5
 _BESIDE = 0.01
 """Beside a face's border by more than this (mm, beyond what it is farther inside), an edge no longer lies on the face."""
 _SAME_RUN = 0.9
@@ -175,13 +176,14 @@ def _joined_faces(weldment: Weldment, edge: int, own: tuple[int, int], on: tuple
 
 
 def _kind(weldment: Weldment, stretch: Stretch, free: int, contact: int, opening: float) -> str:
-    """The joint's name. The part that ends here stands (T) where its free face is larger than the one it stands on."""
+    """The joint's name. A part lies (lap) on one of its large faces, and stands (T) on a small one."""
     if len(stretch.other) > 1:
         return "butt" if opening >= _FLAT else "corner"
     around = weldment.faces[free].Surface
     if around.isUClosed() or around.isVClosed():
         return "pipe"
-    return "T" if weldment.faces[free].Area >= weldment.faces[contact].Area else "lap"
+    largest = max(weldment.faces[face].Area for face in weldment.parts[weldment.part_of_face[contact]])
+    return "lap" if weldment.faces[contact].Area >= _LARGE * largest else "T"
 
 
 def _length(weldment: Weldment, stretch: Stretch) -> float:

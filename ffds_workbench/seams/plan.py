@@ -117,8 +117,9 @@ def _targets(path: Path) -> list[Path]:
     return [path, path.with_suffix(".dat")] if path.suffix.lower() == ".src" else [path]
 
 
-def write_seams(plan: SeamPlan, outs: Sequence[Path], robot: RobotSettings | None = None, report_path: Path | None = None,
-                picture: Path | None = None, inputs: Sequence[Path] = ()) -> list[str]:
+def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings | None = None,
+                report_path: str | Path | None = None, picture: str | Path | None = None,
+                inputs: Sequence[str | Path] = ()) -> list[str]:
     """Write tables and programs, by their suffixes, and the report and its picture: all of them or none.
 
     Returns
@@ -130,6 +131,8 @@ def write_seams(plan: SeamPlan, outs: Sequence[Path], robot: RobotSettings | Non
     InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
     RefusedError : the disk is full
     """
+    outs, inputs = list(map(Path, outs)), list(map(Path, inputs))
+    report_path, picture = (None if path is None else Path(path) for path in (report_path, picture))
     check_seam_outputs(outs, (report_path, picture), inputs)
     extra = [path for path in (report_path, picture) if path is not None]
     robot = robot or RobotSettings()

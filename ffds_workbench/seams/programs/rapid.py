@@ -39,7 +39,7 @@ def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -
         zone = f"zFfds{number}"
         points = [f"pS{number}_{i}" for i in range(1, len(seam.poses) + 1)]
         names = [f"pS{number}_in", *points, f"pS{number}_out"]
-        lines += [f"  CONST robtarget {point}:=[{pose},{_NO_AXES}];"
+        lines += [f"  CONST robtarget {point}:=[{pose[1:-1]},{_NO_AXES}];"
                   for point, pose in zip(names, pose_texts(seam.all_poses), strict=True)]
         blend = f"{seam.blend:.3f}"
         lines.append(f"  CONST zonedata {zone}:=[FALSE,{blend},{blend},{blend},0.5,{blend},0.5];")
