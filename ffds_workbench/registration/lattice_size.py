@@ -21,12 +21,13 @@ _COARSE_SPANS = 7
 _LARGEST_TURN = np.radians(30)
 _FEWEST, _MOST = 4, 64
 _SPANS = (2, 3, 4, 6, 8, 11, 15, 20, 27)
-_HELD_OUT_BLOCKS = 3
+_HELD_OUT_BLOCKS, _HELD_OUT_SHARE = 3, 0.125
+"""Side of the squares that are held out: in blocks and in lengths of the face, so that noise has little in common with
+what is left."""
 _FOLDS = 4
 _TOLERANCE = 0.01
 """Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
-_PATIENCE = 2
-_CLEARLY_WORSE = 1.02
+_ALWAYS, _PATIENCE = 8, 2
 _NODES = 100
 
 
@@ -59,7 +60,7 @@ def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, we
     for spans in [s for s in _SPANS if s <= finest] or [_SPANS[0]]:
         sizes.append(_size(raster, spans))
         scores.append(_held_out(surface, raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2, sizes[-1], stiffness))
-        if len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE or scores[-1] > _CLEARLY_WORSE * min(scores):
+        if spans >= _ALWAYS and len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
             break
     good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _TOLERANCE))
     return sizes[min(int(good[0]) + 1, len(sizes) - 1)]
@@ -94,8 +95,8 @@ def _held_out(surface: SplineSurface, raster: Raster, layers: Layers, data: Arra
     rows = (lattice.basis_u(u)[:, :, None] * lattice.basis_v(v)[:, None]).reshape(len(u), -1)
     rows *= np.sqrt(data)[:, None]
     heights = np.sqrt(data) * layers.height
-    edge = _HELD_OUT_BLOCKS * layers.block
-    fold = ((layers.x // edge).astype(int) + 2 * (layers.y // edge).astype(int)) % _FOLDS
+    edge = np.maximum(_HELD_OUT_BLOCKS * layers.block, _HELD_OUT_SHARE * max(_lengths(raster)) / raster.size)
+    fold = ((layers.x // edge[0]).astype(int) + 2 * (layers.y // edge[1]).astype(int)) % _FOLDS
     parts = [(part, part.T @ part, part.T @ y, y) for part, y in
              ((rows[fold == k], heights[fold == k]) for k in range(_FOLDS))]
     matrix, right = sum(p[1] for p in parts), sum(p[2] for p in parts)

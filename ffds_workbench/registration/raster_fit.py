@@ -24,6 +24,8 @@ Index = NDArray[np.intp]
 
 _NOISE_CUT = 4.685
 """Tukey's constant: 95 % efficiency on normal noise."""
+_MOST_NOISIER = 1.5
+"""A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
 """Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
 
@@ -48,7 +50,7 @@ class RobustSettings:
     margin: float = 0.7
     curvature: float = 0.002
     length: float = 10.0
-    gauge: float = 1e-4
+    gauge: float = 1e-2
     schedule: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0), (1e2, 1.5), (30, 1.2), (10, 1.0))
     final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
     sample: int = 20000
@@ -141,7 +143,7 @@ class RasterFit:
         mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
         some = slice(None, None, max(1, len(residual) // self.settings.sample))
         spread = np.abs(residual[some][weight[some] > 0])
-        new_noise = 1.4826 * float(np.median(spread)) if len(spread) else noise
+        new_noise = min(1.4826 * float(np.median(spread)), _MOST_NOISIER * noise) if len(spread) else noise
         data = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine

@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
 
 from ..errors import RefusedError
+from .coverage import covered_share
 from .control_lattice import displacement_lattice
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, surface_coordinates
@@ -65,23 +65,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         some = points.sample(settings.sample) if k == 0 else points
         state = fit.step(state, some, None, noise, stiffness, gate)
         noise = state.noise
-    return FaceRegistration(face.name, fit.field(state), state.points, coverage(raster, state.weights), state.noise)
-
-
-def coverage(raster: Raster, weights: Array) -> float:
-    """Share of the face's area that lies within about one spacing of a cell that holds scan points."""
-    seen = (weights > 0).reshape(raster.shape)
-    if not seen.any():
-        return 0.0
-    inside = raster.inside.reshape(raster.shape)
-    per_cell = weights[weights > 0].mean()
-    share = seen[inside].mean()
-    radius = int(np.ceil(0.5 / np.sqrt(max(share, 1e-4)))) if per_cell < 3 else 1
-    modes = ["wrap" if closed else "nearest" for closed in raster.periodic]
-    for axis, mode in enumerate(modes):
-        seen = maximum_filter1d(seen, 2 * radius + 1, axis=axis, mode=mode)
-    area = raster.area.reshape(raster.shape)[inside]
-    return float((area * seen[inside]).sum() / area.sum())
+    return FaceRegistration(face.name, fit.field(state), state.points, covered_share(raster, state.weights), state.noise)
 
 
 def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: RobustSettings) -> None:

@@ -24,6 +24,8 @@ _DENSE = 0.3
 """A layer counts if it has this share of the points of the densest layer of its block."""
 _THIRD_OF_NORMAL = 0.8615
 """Width of the shortest interval that holds a third of a normal distribution, in standard deviations."""
+_CLEANER = 0.3
+"""Quantile of the blocks by which the noise is judged: the others may hold walls, steps and slopes."""
 _STARTS = 21
 _START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
 _TILT = 0.1
@@ -147,7 +149,7 @@ def _blocks(raster: Raster, points: SurfaceCoordinates) -> tuple[Index, int]:
 
 
 def _noise(height: Array, first: Index, count: Index) -> float:
-    """Median over the blocks of the shortest interval that holds a third of a block's points, as a standard deviation."""
+    """Standard deviation from the shortest interval that holds a third of a block's points, in the cleaner blocks."""
     third = np.maximum(count // 3, 1)
     group = np.repeat(np.arange(len(first)), count)
     other = np.arange(len(height)) + third[group]
@@ -156,4 +158,4 @@ def _noise(height: Array, first: Index, count: Index) -> float:
     shortest = np.minimum.reduceat(width, first)[count >= 6]
     if not len(shortest):
         return float(np.std(height))
-    return float(np.median(shortest)) / _THIRD_OF_NORMAL
+    return float(np.quantile(shortest, _CLEANER)) / _THIRD_OF_NORMAL
