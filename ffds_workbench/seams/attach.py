@@ -6,6 +6,7 @@ with the face's tangent plane. What it stood off the model is carried along, tur
 """
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import FreeCAD
@@ -71,7 +72,10 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
     RefusedError : no pose is near the model, or a face's parameters were not kept
     """
     finder = _Finder(nominal)
-    anchors = [finder(point) for point in points]
+    candidates = [finder(point) for point in points]
+    held_by = Counter(anchor.edge for several in candidates for anchor in several)
+    # Where edges meet, the path goes on along the one that it follows elsewhere.
+    anchors = [max(several, key=lambda anchor: held_by[anchor.edge], default=None) for several in candidates]
     held = np.array([anchor is not None for anchor in anchors])
     if not held.any():
         raise RefusedError("No pose of the path is near the nominal model: is the path in mm, and in the model's frame?")
@@ -87,7 +91,7 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
 
 
 class _Finder:
-    """What holds a pose."""
+    """What can hold a pose: an edge, or several where they meet, or a face, or nothing near enough."""
 
     def __init__(self, nominal: Weldment) -> None:
         self._nominal = nominal
@@ -98,29 +102,32 @@ class _Finder:
         self._surfaces = Part.makeCompound(nominal.faces)
         self._reach = _REACH_SHARE * nominal.shape.BoundBox.DiagonalLength
 
-    def __call__(self, point: Array) -> _Anchor | None:
+    def __call__(self, point: Array) -> list[_Anchor]:
         vertex = Part.Vertex(*point.tolist())
         distance, feet, supports = vertex.distToShape(self._surfaces)
         if distance > self._reach:
-            return None
+            return []
         if self._wires is not None:
             to_edge, on_edge, _ = vertex.distToShape(self._wires)
             if to_edge <= max(EDGE_REACH, distance + 1e-6):
-                return self._on_edge(vertex, to_edge, on_edge[0][1])
+                return self._on_edges(vertex, to_edge, on_edge[0][1])
         kind, index, parameter = supports[0][3:6]
         if kind != "Face":
             index = min(range(len(self._nominal.faces)), key=lambda face: vertex.distToShape(self._nominal.faces[face])[0])
             parameter = self._nominal.faces[index].Surface.parameter(feet[0][1])
-        return _Anchor(None, index, parameter)
+        return [_Anchor(None, index, parameter)]
 
-    def _on_edge(self, vertex: Part.Vertex, distance: float, foot: FreeCAD.Vector) -> _Anchor:
-        near = [edge for edge in self._edges if self._nominal.edges[edge].distToShape(vertex)[0] <= distance + 1e-6]
-        edge = near[0]
-        start, end = self._nominal.edges[edge].ParameterRange
-        at = self._nominal.edges[edge].Curve.parameter(foot)
-        if self._nominal.edges[edge].isClosed():
-            at = start + (at - start) % (end - start)
-        return _Anchor(edge, None, (float(np.clip((at - start) / (end - start), 0.0, 1.0)), 0.0))
+    def _on_edges(self, vertex: Part.Vertex, distance: float, foot: FreeCAD.Vector) -> list[_Anchor]:
+        anchors = []
+        for index in self._edges:
+            edge = self._nominal.edges[index]
+            if edge.distToShape(vertex)[0] <= distance + 1e-6:
+                start, end = edge.ParameterRange
+                at = edge.Curve.parameter(foot)
+                if edge.isClosed():
+                    at = start + (at - start) % (end - start)
+                anchors.append(_Anchor(index, None, (float(np.clip((at - start) / (end - start), 0.0, 1.0)), 0.0)))
+        return anchors
 
 
 def _edge_motion(nominal: Weldment, as_built: Weldment, edge: int, fractions: Array) -> tuple[Array, Array, Array]:
