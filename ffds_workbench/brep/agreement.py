@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What edited faces agree on along their edges.
 
-Each face was registered by itself; where two of them meet, their displacements differ by noise or more. Along a shared
-edge the mean of its edited faces holds, at a vertex the mean of all edited faces there, and each face spreads its
+Each face was registered by itself; where two of them meet, their displacements differ by noise or more. A scan shows how
+a face moves along its normal and hardly how it slides within itself. So along a shared edge, and at a vertex, every
+edited face has its say along its own normal, and where no normal points the mean holds. Each face spreads its
 correction smoothly into its own interior.
 """
 from __future__ import annotations
@@ -25,6 +26,8 @@ _GENTLE = 10.0
 _SPREAD = 0.25
 """… and over this part of the face's size."""
 _MOST_CENTRES = 500
+_SLIDING = 0.03
+"""How much a face's displacement within itself counts beside that along its normal; decides where normals are alike."""
 _EVEN = 1e-8
 """Sides of a seam, or directions at a pole, that differ by more than this (mm) tear the face."""
 
@@ -37,12 +40,14 @@ class Side:
     ----------
     rows : (m,) samples of its edges
     own : (m, 3) its own displacement there in mm; on a seam the mean of both sides, at a pole of all of it
+    normals : (m, 3) unit normals of the face there, 0 where it has none
     torn : (m,) whether the face disagrees with itself there: a pole that moves unevenly, a seam of a displacement that
         is not periodic
     """
 
     rows: NDArray[np.intp]
     own: Array
+    normals: Array
     torn: NDArray[np.bool_]
 
 
@@ -79,7 +84,7 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
     samples = join(along_edge(workpiece, edge, lambda points, s=step: np.full(len(points), s))
                    for edge, step in sorted(finest.items()))
     sides = {face: _side(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
-    agreed = _means(samples, sides)
+    agreed = _along_edges(samples, sides)
     _close_at_vertices(workpiece, samples, sides, agreed)
     return Rim(samples, agreed, sides)
 
@@ -96,21 +101,44 @@ def _side(workpiece: Workpiece, face: int, displacement: SplineSurface, samples:
             rows.append(np.repeat(at, len(fractions)) if pole else at)
             parameters.append(trace.uv)
             on_seam.append(np.full(len(fractions), seam))
-    values = displacement(np.concatenate(parameters))
+    uv = np.concatenate(parameters)
+    values = displacement(uv)
     unique, inverse, count = np.unique(np.concatenate(rows), return_inverse=True, return_counts=True)
     mean = np.zeros((len(unique), 3))
     np.add.at(mean, inverse, values)
     mean /= count[:, None]
     torn = np.concatenate(on_seam) | (np.linalg.norm(values - mean[inverse], axis=1) > _EVEN)
-    return Side(unique, mean, np.bincount(inverse, torn) > 0)
+    surface = workpiece.faces[face].surface
+    normals = np.zeros((len(unique), 3))
+    np.add.at(normals, inverse, _unit(np.cross(surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv))))
+    return Side(unique, mean, _unit(normals), np.bincount(inverse, torn) > 0)
 
 
-def _means(samples: EdgeSamples, sides: Mapping[int, Side]) -> Array:
-    total, count = np.zeros((len(samples.points), 3)), np.zeros(len(samples.points))
-    for side in sides.values():
-        total[side.rows] += side.own
-        count[side.rows] += 1
-    return total / count[:, None]
+def _unit(vectors: Array) -> Array:
+    """(n, 3) at length 1; what is almost 0 beside the longest becomes 0."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 1e-6 * length.max(initial=1e-300))
+
+
+def _along_edges(samples: EdgeSamples, sides: Mapping[int, Side]) -> Array:
+    rows = np.concatenate([side.rows for side in sides.values()])
+    return _compromise(rows, np.concatenate([side.own for side in sides.values()]),
+                       np.concatenate([side.normals for side in sides.values()]), len(samples.points))
+
+
+def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int) -> Array:
+    """What the faces at each of ``count`` places agree on: argmin over d of Σ (nᵀ(d − own))² + s |d − own|², (count, 3).
+
+    Parameters
+    ----------
+    place : (m,) the place that a face speaks for; every place has one or more
+    own, normals : (m, 3) its displacement and its unit normal there
+    """
+    say = normals[:, :, None] * normals[:, None, :] + _SLIDING * np.eye(3)
+    matrix, right = np.zeros((count, 3, 3)), np.zeros((count, 3))
+    np.add.at(matrix, place, say)
+    np.add.at(right, place, np.einsum("nij,nj->ni", say, own))
+    return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
 
 
 def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mapping[int, Side], agreed: Array) -> None:
@@ -119,15 +147,20 @@ def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mappin
     by_row = defaultdict(list)
     for row, vertex in ends:
         by_row[row].append(vertex)
-    at_vertex: dict[int, list[Array]] = defaultdict(list)
+    vertices, own, normals = [], [], []
     for side in sides.values():
-        here: dict[int, list[Array]] = defaultdict(list)
+        here: dict[int, list[int]] = defaultdict(list)
         for k in np.flatnonzero(np.isin(side.rows, list(by_row))):
             for vertex in by_row[side.rows[k]]:
-                here[vertex].append(side.own[k])
+                here[vertex].append(k)
         for vertex, found in here.items():
-            at_vertex[vertex].append(np.mean(found, axis=0))
-    offsets = {row: np.mean(at_vertex[vertex], axis=0) - agreed[row] for row, vertex in ends}
+            vertices.append(vertex)
+            own.append(side.own[found].mean(axis=0))
+            normals.append(side.normals[found].sum(axis=0))
+    numbers, places = np.unique(vertices, return_inverse=True)
+    at_vertex = dict(zip(numbers.tolist(), _compromise(places, np.array(own), _unit(np.array(normals)), len(numbers)),
+                         strict=True))
+    offsets = {row: at_vertex[vertex] - agreed[row] for row, vertex in ends}
     for edge in np.unique(samples.edges):
         rows = np.flatnonzero(samples.edges == edge)
         weight = samples.fractions[rows][:, None]
