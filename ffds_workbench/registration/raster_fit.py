@@ -18,7 +18,7 @@ from .footpoints import SurfaceCoordinates, newton_in_cells
 from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
 from .raster import Raster, dot
 from .splines import Array, SplineSurface, basis_matrix, tensor_product
-from .start import SmallMotion, tukey
+from .start import Layers, SmallMotion, tukey
 
 Index = NDArray[np.intp]
 
@@ -120,23 +120,18 @@ class RasterFit:
             fields = tuple(dot(f, raster.normal)[:, None] * raster.normal for f in fields)
         return State(*fields)
 
-    def step(self, state: State, points: SurfaceCoordinates, count: Array | None, noise: float, stiffness: float,
-             gate: float) -> State:
-        """Weigh the points about the current surface, and solve for the displacement they ask for.
+    def step(self, state: State, data: SurfaceCoordinates | Layers, noise: float, stiffness: float, gate: float) -> State:
+        """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
         ----------
-        count : weight of each point, one if None
+        data : scan points, or their layers
         noise : standard deviation of a point along the normal, in mm
         stiffness : multiplier of the bending energy
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
         """
         graph = self._graph(state)
-        cell, residual = self._residuals(graph, points)
-        gate = max(gate, _NOISE_CUT * noise)
-        weight = tukey(residual, gate)
-        if count is not None:
-            weight *= count
+        cell, residual, weight = self._weighed(graph, data, max(gate, _NOISE_CUT * noise))
         cells = len(self.raster.inside)
         total = np.bincount(cell, weight, cells)
         residual[weight == 0] = 0
@@ -144,16 +139,15 @@ class RasterFit:
         some = slice(None, None, max(1, len(residual) // self.settings.sample))
         spread = np.abs(residual[some][weight[some] > 0])
         new_noise = min(1.4826 * float(np.median(spread)), _MOST_NOISIER * noise) if len(spread) else noise
-        data = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
+        certainty = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
-        control_points = self._solve(row, target, data, stiffness)
+        control_points = self._solve(row, target, certainty, stiffness)
         return self._state(control_points, total, int(np.count_nonzero(weight)), new_noise)
 
-    def point_weights(self, state: State, points: SurfaceCoordinates, gate: float, noise: float) -> Array:
-        """Tukey weights of points about the surface of a state, 0 off the face."""
-        cell, residual = self._residuals(self._graph(state), points)
-        return tukey(residual, max(gate, _NOISE_CUT * noise))
+    def layer_weights(self, state: State, layers: Layers, noise: float, gate: float) -> Array:
+        """Weights of layers about the surface of a state: their points, 0 for what is not the face."""
+        return self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * noise))[2]
 
     def field(self, state: State) -> SplineSurface:
         """The displacement of a state as a spline in mm."""
@@ -185,6 +179,14 @@ class RasterFit:
         below = raster.cell(x, y)
         cosine = dot(normal, raster.normal[np.where(below >= 0, below, cells)])
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
+
+    def _weighed(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> tuple[Index, Array, Array]:
+        """Material cell, residual and weight of scan points or layers."""
+        if isinstance(data, SurfaceCoordinates):
+            cell, residual = self._residuals(graph, data)
+            return cell, residual, tukey(residual, gate)
+        cell, residual = self._residuals(graph, data.as_points())
+        return cell, residual, tukey(residual, gate) * data.count * data.outermost(residual, gate)
 
     def _residuals(self, graph: _Graph, points: SurfaceCoordinates) -> tuple[Index, Array]:
         """Material cell of each point and its height over the current surface in mm, infinite off the face."""

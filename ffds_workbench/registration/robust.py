@@ -22,7 +22,7 @@ from .raster import Raster, make_raster
 from .raster_fit import RasterFit, RobustSettings
 from .result import FaceRegistration
 from .splines import Array
-from .start import outermost_layers, rigid_start
+from .start import dense_layers, rigid_start
 
 _FEWEST_POINTS = 30
 
@@ -47,23 +47,23 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
     points = surface_coordinates(raster, scan, settings.reach).on_face(raster, margin)
     _check_points(face, points, settings)
-    layers = outermost_layers(raster, points.sample(settings.sample))
+    layers = dense_layers(raster, points.sample(settings.sample))
     layers = replace(layers, density=layers.density * max(1.0, len(points.x) / settings.sample))
     size = lattice or coarse_lattice(raster, layers, settings.stiffness)
     fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     _check_lattice(face, fit, points)
     state = fit.moved(rigid_start(raster, layers))
     for stiffness, gate in settings.schedule:
-        state = fit.step(state, layers.as_points(), layers.count, layers.noise, stiffness, gate)
+        state = fit.step(state, layers, layers.noise, stiffness, gate)
     if lattice is None:
-        weights = fit.point_weights(state, layers.as_points(), settings.schedule[-1][1], layers.noise) * layers.count
+        weights = fit.layer_weights(state, layers, layers.noise, settings.schedule[-1][1])
         best = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
         if best != size:
             fit = RasterFit(face, raster, displacement_lattice(face.surface, best), settings)
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
         some = points.sample(settings.sample) if k == 0 else points
-        state = fit.step(state, some, None, noise, stiffness, gate)
+        state = fit.step(state, some, noise, stiffness, gate)
         noise = state.noise
     return FaceRegistration(face.name, fit.field(state), state.points, covered_share(raster, state.weights), state.noise)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a robust fit starts: which layer of the scan is the face, and the stiff motion that brings the face to it.
+"""Where a robust fit starts: the layers that the scan forms over the face, and the stiff motion that brings it to one.
 
 A scan holds more than the face: the back of the sheet, a table, neighbours, outliers. Along the normal the points of a
-cell form layers; of those that are dense enough the outermost is what a sensor sees of the face.
+block of cells form layers. Of those near the current surface the outermost is the face: behind it lies the material.
 """
 from __future__ import annotations
 
@@ -28,25 +28,31 @@ _CLEANER = 0.3
 """Quantile of the blocks by which the noise is judged: the others may hold walls, steps and slopes."""
 _STARTS = 21
 _START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
+_WINDOW = 4.0
+"""Layers this close (mm) to a start may be two skins of one sheet, and the outermost is taken."""
+_FARTHER = 0.3
+"""What a start at the end of the reach must explain more than one at the nominal, as a share."""
 _TILT = 0.1
 _NOISE_CUT = 4.685
 
 
 @dataclass(frozen=True)
 class Layers:
-    """The outermost dense layer of each block of cells.
+    """The dense layers of each block of cells, block by block and outwards.
 
     Attributes
     ----------
-    x, y : (k,) mean cell coordinates of its points
-    height : (k,) median height in mm
+    first : (b,) where the layers of each block start
+    x, y : (k,) mean cell coordinates of a layer's points
+    height : (k,) their median height in mm
     count : (k,) number of points
-    noise : estimated standard deviation of the points along the normal in mm; slopes within a block included
+    noise : estimated standard deviation of the points along the normal in mm
     density : points per mm² of face where the scan covers it
     block : cells along the side of a block
     shape : cells of the raster
     """
 
+    first: Index
     x: Array
     y: Array
     height: Array
@@ -60,9 +66,21 @@ class Layers:
         """The layers as if each were one scan point."""
         return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height, self.shape)
 
+    def outermost(self, residual: Array, window: float) -> NDArray[np.bool_]:
+        """Whether a layer is the outermost of its block of those within ``window`` mm of a surface.
 
-def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
-    """Split the points of each block of cells at gaps along the normal, and take the outermost dense layer.
+        Parameters
+        ----------
+        residual : (…, k) heights of the layers over the surface
+        """
+        number = np.arange(residual.shape[-1])
+        last = np.maximum.reduceat(np.where(np.abs(residual) <= window, number, -1), self.first, axis=-1)
+        sizes = np.diff(np.append(self.first, len(number)))
+        return np.asarray(np.repeat(last, sizes, axis=-1) == number)
+
+
+def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
+    """Split the points of each block of cells at gaps along the normal, and keep the dense layers.
 
     ``points`` must not be empty. Blocks are large enough to hold about 16 points where the scan covers the face.
     """
@@ -78,14 +96,11 @@ def outermost_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     owner = np.searchsorted(first, start, side="right") - 1
     densest = np.maximum.reduceat(size, np.searchsorted(start, first))
     dense = size >= _DENSE * densest[owner]
-    start, size, owner = start[dense], size[dense], owner[dense]
-    outermost = np.flatnonzero(np.diff(owner, append=-1) != 0)
-    start, size = start[outermost], size[outermost]
-    label = np.repeat(np.arange(len(start)), size)
-    member = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size) + np.repeat(start, size)
-    x, y = (np.bincount(label, a[order][member]) / size for a in (points.x, points.y))
+    x, y = (np.add.reduceat(a[order], start) / size for a in (points.x, points.y))
+    median = height[start + size // 2]
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(x, y, height[start + size // 2], size.astype(float), noise, density, edge, raster.shape)
+    return Layers(np.flatnonzero(np.diff(owner[dense], prepend=-1)), x[dense], y[dense], median[dense],
+                  size[dense].astype(float), noise, density, edge, raster.shape)
 
 
 @dataclass(frozen=True)
@@ -119,14 +134,19 @@ def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
     products = (columns[:, :, None] * columns[:, None]).reshape(len(cell), -1)
     motion = np.zeros((_STARTS, 6))
     for gate in _START_GATES:
-        weight = tukey(residual, max(gate, _NOISE_CUT * layers.noise))
+        weight = _weights(layers, residual, gate)
         normal = (weight @ products).reshape(-1, 6, 6) + np.diag(prior)
         motion = np.linalg.solve(normal, ((weight * layers.height) @ columns)[..., None])[..., 0]
         residual = layers.height[None] - motion @ columns.T
-    explained = tukey(residual, max(_START_GATES[-1], _NOISE_CUT * layers.noise)).sum(axis=1)
+    explained = _weights(layers, residual, _START_GATES[-1]).sum(axis=1)
     offset = np.abs(motion @ columns.mean(axis=0))
-    best = motion[np.argmax(explained * (1 - 0.1 * offset / reach))]
+    best = motion[np.argmax(explained * (1 - _FARTHER * offset / reach))]
     return SmallMotion(best[:3], best[3:] / size, centre)
+
+
+def _weights(layers: Layers, residual: Array, gate: float) -> Array:
+    gate = max(gate, _NOISE_CUT * layers.noise)
+    return tukey(residual, gate) * layers.outermost(residual, max(min(gate, _WINDOW), _NOISE_CUT * layers.noise))
 
 
 def tukey(residual: Array, gate: float) -> Array:
