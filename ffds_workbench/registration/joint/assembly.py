@@ -69,16 +69,17 @@ def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
     return NormalEquations(blocks, right)
 
 
-def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array) -> NormalEquations:
-    """Bending, couplings and, with a weight per span, isometry at the current shape."""
+def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array,
+                    thickness: float) -> NormalEquations:
+    """Bending, couplings and, with a weight per span, isometry at the current shape; ``thickness`` multiplies its rows."""
     settings, stiffness = problem.settings, problem.stiffness
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    scalar = weight * problem.bending + problem.coupled
+    scalar = weight * problem.bending + problem.coupled + thickness * problem.thickness
     blocks = scalar[:, None, None] * np.eye(3) + problem.dihedral
     right = (weight * gather(problem, stiffness.bending_load(normal - stiffness.normal))
-             + problem.couplings.thickness_load(control_points)
+             + thickness * problem.couplings.thickness_load(control_points)
              + problem.couplings.dihedral_load(control_points) - _apply(problem, scalar, control_points))
     return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, isometry)
 

@@ -47,14 +47,18 @@ class Couplings:
 
     Attributes
     ----------
-    scalar : (controls, controls) normal matrix of the rows that act alike on x, y and z
+    scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
+    thickness : (controls, controls) normal matrix of the sheets' thickness
+    pairs, edges : the places that are coupled
     thickness_rows : (pairs, controls) d_back − d_front
     thickness_weight : (pairs,) 1/mm²
     dihedral : (3 controls, 3 controls) normal matrix of the edge angles
     dihedral_rows : (samples, 3 controls) change of the angle between the faces
+    dihedral_weight : (samples,) 1/rad²
     """
 
     scalar: csr_matrix
+    thickness: csr_matrix
     pairs: SheetPairs
     edges: EdgeSamples
     thickness_rows: csr_matrix
@@ -102,10 +106,10 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, setti
                         / settings.thickness_sigma**2)
     dihedral_rows = _dihedral_rows(edges, lattices)
     dihedral_weight = edges.length / np.mean(edges.length) / settings.dihedral_sigma**2 if len(edges.edge) else np.zeros(0)
-    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + thickness_rows.T @ diags(thickness_weight) @ thickness_rows
-              + diags(_anchor(part, lattices, settings, information)))
+    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
-    return Couplings(scalar.tocsr(), pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,
+    thickness = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
+    return Couplings(scalar.tocsr(), thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,
                      dihedral_weight)
 
 

@@ -35,24 +35,25 @@ def observed_strain(problem: Problem, state: State) -> float:
     return float(np.sqrt((area[..., None] * strain**2).sum() / max(area.sum(), 1e-12)))
 
 
-def isometry_weights(problem: Problem, state: State, stage: Stage) -> State:
-    """The state with the weight per mm² of the strain in every span, and the strain it was decided from.
+def judge_stretch(problem: Problem, state: State, stage: Stage) -> State:
+    """The state with the weights of isometry and thickness, and the strain they were decided from.
 
     Until the first soft stage is over a sheet counts as isometric; then the strain decides, once.
     """
     settings = problem.settings
-    skin = problem.couplings.pairs.of_face[problem.lattices.face_of_span] > 0
-    weight = settings.isometry_weight
+    if stage.soft and state.strain:
+        return state
     strain = observed_strain(problem, state) if stage.soft and state.values is not None else 0.0
+    stretched = {"on": 0.0, "off": 1.0}.get(settings.isometry)
+    if stretched is None:
+        stretched = float(np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1))
+    weight = settings.isometry_weight ** (1 - stretched) * settings.isometry_weight_soft**stretched
     if settings.isometry == "off":
         weight = _OFF
-    elif settings.isometry == "auto" and stage.soft:
-        if state.strain:
-            return state
-        stretched = np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1)
-        weight = float(weight ** (1 - stretched) * settings.isometry_weight_soft**stretched)
+    skin = problem.couplings.pairs.of_face[problem.lattices.face_of_span] > 0
     weights: Array = np.where(skin, weight, min(_WALL * weight, settings.isometry_weight_soft))
-    return replace(state, isometry=weights, strain=strain)
+    thickness = (settings.thickness_sigma / settings.thickness_sigma_soft) ** (2 * stretched)
+    return replace(state, isometry=weights, strain=strain, thickness=thickness)
 
 
 def is_isometric(state: State) -> bool:

@@ -40,7 +40,7 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    bending, coupled, dihedral : constant rows on the pattern, bending without its weight
+    bending, coupled, thickness, dihedral : constant rows on the pattern, bending without its weight
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -59,6 +59,7 @@ class Problem:
     pattern: Pattern
     bending: Array
     coupled: Array
+    thickness: Array
     dihedral: Array
     sides: EdgeSides
     margin: Array
@@ -96,12 +97,12 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     stiffness = make_stiffness(lattices, make_places(part.faces, lattices, GAUSS_PLACES))
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, settings, len(scan) / statistics.noise**2)
-    pattern = Pattern(lattices, (couplings.scalar, _nodes_of(couplings.dihedral)), _positions(lattices, cells))
+    pattern = Pattern(lattices, (couplings.scalar, couplings.thickness, _nodes_of(couplings.dihedral)), _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, np.where(cells.inside, area, 0.0), stiffness, couplings,
                    pattern, pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
-                   pattern.from_vector(couplings.dihedral),
+                   pattern.from_scalar(couplings.thickness), pattern.from_vector(couplings.dihedral),
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
 

@@ -76,7 +76,7 @@ class JointSettings:
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
     curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; the bending weight is 1/(κ₀ l)²
     isometry_weight, isometry_weight_soft : weight of the strain per mm² for isometric and for stretched parts
-    thickness_sigma : how well a sheet keeps its thickness, in mm
+    thickness_sigma, thickness_sigma_soft : how well a sheet keeps its thickness, for isometric and for stretched parts, in mm
     edge_sigma : how well faces agree along an edge, in mm
     dihedral_sigma : how well an edge keeps its angle, in rad
     pose_sigma : how far a solid may sit from its place, in mm
@@ -94,6 +94,7 @@ class JointSettings:
     isometry_weight: float = 3000.0
     isometry_weight_soft: float = 30.0
     thickness_sigma: float = 0.02
+    thickness_sigma_soft: float = 0.1
     edge_sigma: float = 1e-3
     dihedral_sigma: float = 0.01
     pose_sigma: float = 1.0

@@ -17,7 +17,7 @@ from .assembly import border_equations, data_equations, shape_equations
 from .boundary import find_borders, near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
-from .isometry import isometry_weights
+from .isometry import judge_stretch
 from .part import JointPart
 from .problem import Problem, make_problem
 from .refinement import finer_faces, transfer
@@ -70,7 +70,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    state = isometry_weights(problem, state, stage)
+    state = judge_stretch(problem, state, stage)
     if stage.soft and state.near is None:
         edges = problem.couplings.edges
         state = replace(state, near=near_edges(problem.scan, edges, state.control_points))
@@ -93,7 +93,8 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
     values = replace(values, weight=values.weight / problem.inflation)
     equations = (data_equations(problem, jet, values)
-                 + shape_equations(problem, state.control_points, stage.bending, state.isometry))
+                 + shape_equations(problem, state.control_points, stage.bending, state.isometry,
+                                   state.thickness))
     if stage.soft:
         borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)

@@ -30,6 +30,7 @@ class State:
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     isometry : (spans,) weight of the strain per mm²
+    thickness : multiplies the weight of the sheets' thickness
     strain : rms strain found on observed faces
     near : scan points near the edges, once they are needed
     factor : of an earlier normal matrix
@@ -42,6 +43,7 @@ class State:
     noise: Array
     reach: float
     isometry: Array
+    thickness: float = 1.0
     strain: float = 0.0
     near: Array | None = None
     factor: FrontCholesky | None = None
