@@ -17,9 +17,9 @@ from ..registration.splines import Array
 SPACING = 0.1
 """Largest distance of the samples along an edge, as a fraction of their reach."""
 _POWER = 8
-_ZERO, _ONE = 0.2, 0.95
-"""The factor is exactly 0 below, exactly 1 above these smooth distances. Between two samples at ``SPACING`` it is
-0.06 at most and from 0.2 on without a ripple; it is 0.96 on a surface at the reach from six straight edges."""
+_ZERO, _ONE = 0.14, 1.05
+"""The factor is exactly 0 below, exactly 1 above these smooth distances. Between two samples at ``SPACING`` it is 0.06
+at most, without a ripple that counts from 0.14 on; at the reach from two straight edges it is 1.1, from six 0.96."""
 _HORIZON = 1.6
 """A sample's share fades to nothing at this multiple of its reach."""
 _BLOCK = 60_000
@@ -27,10 +27,18 @@ _FEW = 400
 """Up to so many samples all distances are cheaper than a search for the near ones."""
 
 
-def smoothstep(t: Array) -> Array:
-    """0 below 0, 1 above 1, with two continuous derivatives: t³ (6t² − 15t + 10)."""
+_STEP_KNOTS = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, 4) / 4)
+
+
+def step(t: Array) -> Array:
+    """From 0 at t ≤ 0 to 1 at t ≥ 1, with three continuous derivatives and the smallest possible fourth.
+
+    The perfect spline of degree 4, its fourth derivative ±384 between Chebyshev knots: of all steps the one that a cubic
+    lattice follows with the fewest knots, its interpolation error being (knot spacing / width)⁴.
+    """
     t = np.clip(t, 0.0, 1.0)
-    return t * t * t * (t * (6.0 * t - 15.0) + 10.0)
+    signs = (-2.0, 2.0, -2.0)
+    return 16.0 * (t**4 + sum(sign * np.maximum(t - knot, 0.0) ** 4 for sign, knot in zip(signs, _STEP_KNOTS, strict=True)))
 
 
 def _shares(squared: Array, reach: Array) -> Array:
@@ -102,4 +110,4 @@ class Cutoff:
         """The factor at points: (m, 3) to (m,)."""
         if len(self.points) == 0:
             return np.ones(len(points))
-        return smoothstep((self.distance(points) - _ZERO) / (_ONE - _ZERO))
+        return step((self.distance(points) - _ZERO) / (_ONE - _ZERO))

@@ -19,7 +19,7 @@ _ROOM = 5.0
 _TAPER = 0.05, 0.5
 """Where a frozen face touches an edited one, the displacement fades over five times itself, but between these parts of
 the edited face's size."""
-_TOLERANCE_ROOM = 10.0
+_TOLERANCE_ROOM = 30.0
 """Least reach of a held edge over its tolerance: its faces' own traces of it must lie where the factor is exactly 0."""
 
 
