@@ -63,15 +63,16 @@ class SurfaceCoordinates:
         cell, dx, dy = self.in_cell
         slope_x, slope_y = raster.gradient(raster.depth)
         depth = raster.depth[cell] + slope_x[cell] * dx + slope_y[cell] * dy
-        return self._part(np.flatnonzero(depth >= margin))
+        return self.part(np.flatnonzero(depth >= margin))
 
     def sample(self, most: int) -> SurfaceCoordinates:
         """At most ``most`` of them, drawn at random but always the same."""
         if len(self.x) <= most:
             return self
-        return self._part(np.random.default_rng(0).integers(len(self.x), size=most))
+        return self.part(np.random.default_rng(0).integers(len(self.x), size=most))
 
-    def _part(self, rows: Index) -> SurfaceCoordinates:
+    def part(self, rows: Index) -> SurfaceCoordinates:
+        """Those in the given rows."""
         return SurfaceCoordinates(self.index[rows], self.x[rows], self.y[rows], self.height[rows], self.shape)
 
 

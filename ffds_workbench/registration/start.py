@@ -49,6 +49,7 @@ class Layers:
     x, y : (k,) mean cell coordinates of a layer's points
     height : (k,) their median height in mm
     count : (k,) number of points
+    thin : (k,) no thicker than a sheet seen from above; of the others only the densest third was kept
     noise : estimated standard deviation of the points along the normal in mm
     density : points per mm² of face where the scan covers it
     block : cells along the side of a block
@@ -60,6 +61,7 @@ class Layers:
     y: Array
     height: Array
     count: Array
+    thin: NDArray[np.bool_]
     noise: float
     density: float
     block: int
@@ -100,13 +102,17 @@ def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     owner = np.searchsorted(first, start, side="right") - 1
     densest = np.maximum.reduceat(size, np.searchsorted(start, first))
     dense = size >= _DENSE * densest[owner]
-    begin, end = _cores(height, start, size, _THICK * (noise + _STEEP * edge * float(raster.size.max())))
-    begin, end = begin[dense], end[dense]
+    start, size = start[dense], size[dense]
+    inner = height[start + (3 * size) // 4] - height[start + size // 4]
+    thin = inner <= _THICK * (noise + _STEEP * edge * float(raster.size.max()))
+    third = np.maximum(size // 3, 1)
+    begin = np.where(thin, start, _shortest(height, start, size, third)[0])
+    end = begin + np.where(thin, size, third)
     x, y = (_means(a[order], begin, end) for a in (points.x, points.y))
     median = height[(begin + end) // 2]
     first = np.flatnonzero(np.diff(owner[dense], prepend=-1))
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(first, x, y, median, (end - begin).astype(float), noise, density, edge, raster.shape)
+    return Layers(first, x, y, median, (end - begin).astype(float), thin, noise, density, edge, raster.shape)
 
 
 @dataclass(frozen=True)
@@ -195,25 +201,17 @@ def _spread_about_planes(place: Array, first: Index, count: Index) -> float:
     return float(np.sqrt(np.quantile(np.maximum(smallest, 0), _CLEANER)))
 
 
-def _cores(height: Array, start: Index, size: Index, thick: float) -> tuple[Index, Index]:
-    """Rows of each layer; of one thicker than ``thick`` mm, which holds a wall, its densest third."""
-    third = np.maximum(size // 3, 1)
-    inner = height[start + (3 * size) // 4] - height[start + size // 4]
-    begin = np.where(inner > thick, _shortest(height, start, size, third)[0], start)
-    return begin, np.where(inner > thick, begin + third, start + size)
-
-
 def _shortest(height: Array, first: Index, count: Index, steps: Index) -> tuple[Index, Array]:
     """Of the intervals of ``steps`` successive points in each run of sorted heights, where the shortest starts, and its
     length."""
     run = np.repeat(np.arange(len(first)), count)
-    other = np.arange(len(height)) + steps[run]
-    within = other < (first + count)[run]
-    width = np.where(within, height[np.minimum(other, len(height) - 1)] - height, np.inf)
-    least = np.minimum.reduceat(width, first)
+    row = np.arange(len(run)) + np.repeat(first - np.cumsum(count) + count, count)
+    other = np.minimum(row + steps[run], (first + count)[run] - 1)
+    width = np.where(row + steps[run] == other, height[other] - height[row], np.inf)
+    least = np.minimum.reduceat(width, np.cumsum(count) - count)
     hit = np.flatnonzero(width == least[run])
     start = first.copy()
-    start[run[hit]] = hit
+    start[run[hit]] = row[hit]
     return start, np.where(np.isfinite(least), least, 0.0)
 
 
