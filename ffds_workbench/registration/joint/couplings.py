@@ -19,7 +19,7 @@ from .settings import JointSettings
 from .sheet import SheetPairs
 
 _FROZEN = 1e9
-_PRIOR_SHARE = 1e-5
+_PRIOR_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
 _SMOOTHEST = 1e-9
 
 
@@ -94,9 +94,10 @@ class Couplings:
         return np.einsum("nx,nx->n", gap, normal)
 
 
-def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, settings: JointSettings,
+def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix, settings: JointSettings,
                    information: float) -> Couplings:
-    """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs."""
+    """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs, ``contacts`` the rows of
+    `contact_rows`."""
     count = lattices.count
     edges = _edge_samples(part, lattices)
     rows = vstack([edges.first.matrix(count) - edges.second.matrix(count), _pole_rows(part, lattices)]).tocsr()
@@ -106,7 +107,8 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, setti
                         / settings.thickness_sigma**2)
     dihedral_rows = _dihedral_rows(edges, lattices)
     dihedral_weight = edges.length / np.mean(edges.length) / settings.dihedral_sigma**2 if len(edges.edge) else np.zeros(0)
-    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + diags(_anchor(part, lattices, settings, information)))
+    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
+              + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
     thickness = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     return Couplings(scalar.tocsr(), thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,

@@ -10,6 +10,7 @@ from scipy.sparse import csr_matrix
 from ...errors import RefusedError
 from ..splines import Array
 from .boundary import EdgeSides, edge_sides
+from .contact import contact_rows
 from .correspondence import trim_margin
 from .couplings import Couplings, make_couplings
 from .lattice import Index, Lattices, build_lattices
@@ -96,7 +97,8 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     cells = make_places(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     stiffness = make_stiffness(lattices, make_places(part.faces, lattices, GAUSS_PLACES))
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
-    couplings = make_couplings(part, lattices, pairs, settings, len(scan) / statistics.noise**2)
+    couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
+                               len(scan) / statistics.noise**2)
     pattern = Pattern(lattices, (couplings.scalar, couplings.thickness, _nodes_of(couplings.dihedral)), _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
