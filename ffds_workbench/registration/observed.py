@@ -9,37 +9,50 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .coverage import covered_share
 from .face import FaceGeometry
 from .footpoints import surface_coordinates
 from .raster import Raster, dot, make_raster
 from .splines import Array
+from .start import dense_layers
 
 Index = NDArray[np.intp]
 
 REACH = 10.0
 LEAST_COVERAGE = 0.5
-_LEAST_POINTS = 50
+_LEAST_POINTS = 30
 _SAMPLE = 40000
 _CELLS = 1024
 _NEIGHBOURS = 12
 _ALIKE = 0.6
+"""Cosine of the angle between a point's normal and its face's from which they face the same way."""
 
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A face, and the sampled scan points that lie over it and face its way: their cells, numbers and distances."""
+    """A face, and the layers of the sampled scan points that lie over it and face its way.
+
+    Attributes
+    ----------
+    raster : the face in cells
+    point, distance : (k,) numbers of the points and their distances from the face in mm, layer by layer
+    first : where each layer starts
+    cells : (layers, m·n) whether a cell lies in the layer's block
+    """
 
     raster: Raster
-    cell: Index
     point: Index
     distance: Array
+    first: Index
+    cells: NDArray[np.bool_]
 
     def share(self, owned: NDArray[np.bool_]) -> float:
-        """Share of the face's area that the owned points cover."""
-        if np.count_nonzero(owned) < _LEAST_POINTS:
+        """Share of the face's area in blocks with a layer that has most of its points nearer to this face than others."""
+        count = np.diff(np.append(self.first, len(owned)))
+        own = np.add.reduceat(owned.astype(float), self.first) > 0.5 * count
+        if count[own].sum() < _LEAST_POINTS:
             return 0.0
-        return covered_share(self.raster, np.bincount(self.cell[owned], minlength=len(self.raster.area)))
+        area = self.raster.area * self.raster.inside
+        return float(area[self.cells[own].any(axis=0)].sum() / area.sum())
 
 
 def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = REACH,
@@ -55,14 +68,16 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 
     Notes
     -----
-    Each point belongs to the nearest face that has a foot point for it and faces its way. The face with the least coverage is then given
-    up and its points go to the next nearest, until all that are left are covered: so the skin of a sheet that moved
+    Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the nearest
+    face, each layer to the one that owns most of its points. The face with the least of its area under layers of its own
+    is given up and its points go to the next nearest, until all faces left are covered: so the skin of a sheet that moved
     inwards by more than half the thickness is not taken for the other skin.
     """
     if len(scan) > _SAMPLE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE, replace=False)]
     normals = _normals(scan)
-    candidates = {number: _candidate(face, scan, normals, reach) for number, face in enumerate(faces)}
+    found = {number: _candidate(face, scan, normals, reach) for number, face in enumerate(faces)}
+    candidates = {number: candidate for number, candidate in found.items() if candidate is not None}
     while candidates:
         owned = _owned(candidates, len(scan))
         shares = {number: candidate.share(owned[number]) for number, candidate in candidates.items()}
@@ -74,12 +89,21 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
     return {}
 
 
-def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _Candidate:
+def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _Candidate | None:
     raster = make_raster(face, _CELLS)
     points = surface_coordinates(raster, scan, reach).on_face(raster, 0.0)
-    cell = points.in_cell[0]
-    alike = np.abs(dot(raster.normal[cell], normals[points.index])) > _ALIKE
-    return _Candidate(raster, cell[alike], points.index[alike], np.abs(points.height[alike]))
+    alike = np.abs(dot(raster.normal[points.in_cell[0]], normals[points.index])) > _ALIKE
+    points = points.part(np.flatnonzero(alike))
+    if len(points.x) < _LEAST_POINTS:
+        return None
+    layers = dense_layers(raster, points)
+    count = layers.end - layers.begin
+    first = np.cumsum(count) - count
+    rows = layers.order[np.arange(count.sum()) + np.repeat(layers.begin - first, count)]
+    i, j = np.divmod(np.arange(len(raster.area)), raster.shape[1])
+    block = (layers.x.astype(int) // layers.block, layers.y.astype(int) // layers.block)
+    cells = (i // layers.block == block[0][:, None]) & (j // layers.block == block[1][:, None])
+    return _Candidate(raster, points.index[rows], np.abs(points.height[rows]), first, cells)
 
 
 def _owned(candidates: dict[int, _Candidate], count: int) -> dict[int, NDArray[np.bool_]]:

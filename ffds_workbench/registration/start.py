@@ -45,6 +45,7 @@ class Layers:
 
     Attributes
     ----------
+    order, begin, end : layer k consists of the points ``order[begin[k] : end[k]]``
     first : (b,) where the layers of each block start
     x, y : (k,) mean cell coordinates of a layer's points
     height : (k,) their median height in mm
@@ -56,6 +57,9 @@ class Layers:
     shape : cells of the raster
     """
 
+    order: Index
+    begin: Index
+    end: Index
     first: Index
     x: Array
     y: Array
@@ -112,7 +116,7 @@ def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     median = height[(begin + end) // 2]
     first = np.flatnonzero(np.diff(owner[dense], prepend=-1))
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(first, x, y, median, (end - begin).astype(float), thin, noise, density, edge, raster.shape)
+    return Layers(order, begin, end, first, x, y, median, (end - begin).astype(float), thin, noise, density, edge, raster.shape)
 
 
 @dataclass(frozen=True)
