@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..errors import InputError, RefusedError
@@ -115,8 +117,26 @@ def local_displacements(workpiece: Workpiece, face_displacements: Mapping[int, S
     """
     frozen = frozenset(freeze)
     _refuse_contradictions(workpiece, face_displacements, frozen)
-    if not face_displacements:
-        return {}
+    bodies = _bodies(workpiece)
+    result: dict[int, FaceDisplacement] = {}
+    for body in sorted({bodies[face] for face in face_displacements}):
+        mine = {face: displacement for face, displacement in face_displacements.items() if bodies[face] == body}
+        result |= _in_one_body(workpiece, mine, frozen)
+    return dict(sorted(result.items()))
+
+
+def _bodies(workpiece: Workpiece) -> NDArray[np.intp]:
+    """For each face, the number of its body: faces that share a vertex. Bodies that only touch move independently."""
+    incidence = [(vertex, face) for vertex, faces in enumerate(workpiece.topology.vertex_faces) for face in faces]
+    vertex, face = np.array(incidence).T
+    shape = len(workpiece.topology.vertex_faces), len(workpiece.faces)
+    at = csr_matrix((np.ones(len(face)), (vertex, face)), shape)
+    return connected_components(at.T @ at, directed=False)[1]
+
+
+def _in_one_body(workpiece: Workpiece, face_displacements: Mapping[int, SplineSurface],
+                 frozen: frozenset[int]) -> dict[int, FaceDisplacement]:
+    """One field for edited faces of the same body."""
     samples = {face: on_face(workpiece.faces[face], _spans(d)) for face, d in face_displacements.items()}
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in face_displacements}
     rim = agree(workpiece, face_displacements, {face: _SAMPLE * size for face, size in sizes.items()})
@@ -135,7 +155,7 @@ def local_displacements(workpiece: Workpiece, face_displacements: Mapping[int, S
     for face in held.adapting:
         lines = _lines_of_field(workpiece.faces[face], field)
         result[face] = FaceDisplacement(lambda uv, points: field(points), *lines)
-    return dict(sorted(result.items()))
+    return result
 
 
 def _refuse_contradictions(workpiece: Workpiece, edited: Collection[int], frozen: frozenset[int]) -> None:
