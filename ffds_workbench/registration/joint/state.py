@@ -64,7 +64,7 @@ def start(problem: Problem) -> State:
     position = problem.cells.nominal.position[inside]
     size = float(np.linalg.norm(np.ptp(position, axis=0)))
     distance = cKDTree(position).query(problem.sample, distance_upper_bound=size, workers=-1)[0]
-    typical = float(np.quantile(distance, _TYPICAL))
+    typical = float(np.sort(distance)[int(_TYPICAL * (len(distance) - 1))])
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; check the "
                            "unit of the scan and align it first.")

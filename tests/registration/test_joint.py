@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The joint solve on a thin plate, bent exactly without stretching, against the analytic shape."""
+import numpy as np
+import pytest
+
+FreeCAD = pytest.importorskip("FreeCAD")
+import Part  # noqa: E402
+
+from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
+from ffds_workbench.brep.workpiece import read  # noqa: E402
+from ffds_workbench.errors import RefusedError  # noqa: E402
+from ffds_workbench.registration.joint import JointSettings, SensorProfile, register_joint  # noqa: E402
+
+LENGTH, WIDTH, THICKNESS, RADIUS = 60.0, 40.0, 2.0, 300.0
+NOISE, DENSITY = 0.05, 10.0
+
+
+@pytest.fixture(scope="module")
+def part():
+    return joint_part(read(Part.makeBox(LENGTH, WIDTH, THICKNESS)))
+
+
+def bent(points):
+    """The plate rolled on a cylinder about an axis along y: the mid surface keeps its lengths, normals stay straight."""
+    angle = (points[:, 0] - LENGTH / 2) / RADIUS
+    height = points[:, 2] - THICKNESS / 2
+    return np.column_stack([LENGTH / 2 + (RADIUS - height) * np.sin(angle), points[:, 1],
+                            THICKNESS / 2 + RADIUS - (RADIUS - height) * np.cos(angle)])
+
+
+def deviation(points):
+    """Distance of points from the bent mid surface, signed towards the centre of the roll."""
+    return RADIUS - np.hypot(points[:, 0] - LENGTH / 2, points[:, 2] - THICKNESS / 2 - RADIUS)
+
+
+def scan_of(heights, seed=0):
+    """Noisy points on the skins at the given heights of the plate."""
+    random = np.random.default_rng(seed)
+    count = int(LENGTH * WIDTH * DENSITY)
+    skins = [np.column_stack([random.uniform(0, LENGTH, count), random.uniform(0, WIDTH, count), np.full(count, z)])
+             for z in heights]
+    points = bent(np.concatenate(skins))
+    return points + np.array([0.0, 0.0, 1.0]) * random.normal(0, NOISE, (len(points), 1))
+
+
+def skin(part, height):
+    """Index of the face at a height of the plate."""
+    for index, face in enumerate(part.faces):
+        z = face.surface.control_points[..., 2]
+        if np.ptp(z) < 1e-9 and abs(z.mean() - height) < 1e-9:
+            return index
+    raise AssertionError
+
+
+def as_built(part, result, face):
+    uv = result.faces[face].uv
+    return part.faces[face].surface(uv) + result.faces[face].displacement(uv)
+
+
+def test_one_view_of_a_bent_sheet(part):
+    result = register_joint(part, scan_of([THICKNESS]))
+    top, bottom = skin(part, THICKNESS), skin(part, 0.0)
+    # σ √(dof / n): some 60 degrees of freedom and 24 000 points leave 0.0025 mm; twice that for the mean.
+    assert np.abs(deviation(as_built(part, result, top)) - THICKNESS / 2).mean() < 0.005
+    # Hidden skin: carried by the sheet's thickness, known to 0.02 mm by assumption, exact here.
+    assert np.abs(deviation(as_built(part, result, bottom)) + THICKNESS / 2).mean() < 0.01
+    assert result.thickness[0] == pytest.approx(THICKNESS, abs=0.01)
+    assert result.isometric
+    assert result.faces[top].flag == "observed" and result.faces[bottom].flag == "carried"
+    assert result.faces[bottom].band > result.faces[top].band
+
+
+def test_hiding_a_face_widens_its_band(part):
+    bottom = skin(part, 0.0)
+    seen = register_joint(part, scan_of([0.0, THICKNESS])).faces[bottom]
+    hidden = register_joint(part, scan_of([THICKNESS])).faces[bottom]
+    assert (seen.flag, hidden.flag) == ("observed", "carried")
+    assert hidden.band > 2 * seen.band
+    assert hidden.points == 0 and hidden.coverage == 0.0
+
+
+def test_rigid_motion_of_a_solid(part):
+    shift = np.array([0.0, 0.0, 0.8])
+    flat = np.column_stack([np.random.default_rng(1).uniform(0, 1, (24000, 2)) * [LENGTH, WIDTH], np.full(24000, THICKNESS)])
+    result = register_joint(part, flat + shift + np.random.default_rng(2).normal(0, NOISE, (24000, 1)) * [0, 0, 1])
+    # Seen along z only: the prior must keep the plate from sliding, noise over 24 000 points moves it by 1e-3 mm.
+    assert result.solids[0].T_asbuilt_nominal[:3, 3] == pytest.approx(shift, abs=0.03)
+    assert result.solids[0].deformation < 0.01
+
+
+def test_band_covers_the_truth_on_white_noise(part):
+    covered = []
+    for seed in range(3):
+        result = register_joint(part, scan_of([0.0, THICKNESS], seed))
+        for height in (0.0, THICKNESS):
+            face = skin(part, height)
+            error = deviation(as_built(part, result, face)) - (height - THICKNESS / 2)
+            covered.append(np.abs(error) < result.faces[face].bands)
+    # 3 × 2 faces of some ten independent places each: 0.95 ± 0.06 at two standard deviations.
+    assert np.mean(np.concatenate(covered)) > 0.89
+
+
+def test_sensor_profile_widens_the_bands(part):
+    top = skin(part, THICKNESS)
+    plain = register_joint(part, scan_of([THICKNESS])).faces[top].band
+    settings = JointSettings(sensor=SensorProfile(NOISE, NOISE, 2.0))
+    inflation = settings.sensor.inflation(NOISE, DENSITY)
+    correlated = register_joint(part, scan_of([THICKNESS]), settings).faces[top].band
+    # Stiffer against weaker data: the band grows by less than the noise does, but clearly.
+    assert 0.3 * np.sqrt(inflation) < correlated / plain < 1.2 * np.sqrt(inflation)
+
+
+def test_frozen_faces_stay(part):
+    bottom = skin(part, 0.0)
+    frozen = type(part)(part.faces, part.edges, part.solids, frozenset([bottom]))
+    result = register_joint(frozen, scan_of([THICKNESS]))
+    assert np.abs(result.faces[bottom].displacement.control_points).max() < 1e-3
+
+
+@pytest.mark.parametrize("points, why", [
+    (np.zeros((3, 3)), "points"),
+    (scan_of([THICKNESS]) + [0, 0, 1e4], "overlap"),
+    (scan_of([THICKNESS]) / 1000, "near the part|overlap|converge|fold"),
+])
+def test_refusals(part, points, why):
+    with pytest.raises(RefusedError, match=why):
+        register_joint(part, points)
+
+
+def test_everything_frozen(part):
+    with pytest.raises(RefusedError, match="frozen"):
+        register_joint(type(part)(part.faces, part.edges, part.solids, frozenset(range(6))), scan_of([THICKNESS]))

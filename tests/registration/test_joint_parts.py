@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pieces of the joint solve, each against an independent computation."""
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+
+pytest.importorskip("FreeCAD")
+import Part  # noqa: E402
+
+from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
+from ffds_workbench.brep.workpiece import read  # noqa: E402
+from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout  # noqa: E402
+from ffds_workbench.registration.joint.dissection import dissect  # noqa: E402
+from ffds_workbench.registration.joint.ends import exact_ends  # noqa: E402
+from ffds_workbench.registration.joint.lattice import build_lattices, cubic  # noqa: E402
+from ffds_workbench.registration.joint.raster import make_places, normals  # noqa: E402
+from ffds_workbench.registration.joint.statistics import scan_statistics  # noqa: E402
+from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness  # noqa: E402
+
+SPAN, TURNING = 8.0, np.deg2rad(25)
+
+
+@pytest.fixture(scope="module")
+def cylinder():
+    return joint_part(read(Part.makeCylinder(12.0, 30.0)))
+
+
+@pytest.fixture(scope="module")
+def lattices(cylinder):
+    return build_lattices(cylinder.faces, SPAN, TURNING, {})
+
+
+def fitted(lattices, faces, field):
+    """Control points of all faces that follow a field in space, least squares at dense places."""
+    points = np.zeros((lattices.count, 3))
+    for index, face in enumerate(faces):
+        u0, u1, v0, v1 = face.surface.range
+        uv = np.stack(np.meshgrid(np.linspace(u0, u1, 80), np.linspace(v0, v1, 40), indexing="ij"), -1).reshape(-1, 2)
+        controls, weights = lattices.rows(index, uv)
+        matrix = csr_matrix((weights.ravel(), controls.ravel(), np.arange(len(uv) + 1) * 16), (len(uv), lattices.count))
+        own = np.flatnonzero(lattices.face_of_control == index)
+        points[own] = np.linalg.lstsq(matrix[:, own].toarray(), field(face.surface(uv)), rcond=None)[0]
+    return points
+
+
+def test_basis_is_a_partition_of_unity():
+    x = np.linspace(0, 1, 11)
+    assert cubic(x).sum(axis=1) == pytest.approx(1)
+    step = 1e-6
+    assert (cubic(x + step) - cubic(x - step)) / (2 * step) == pytest.approx(cubic(x, 1), abs=1e-8)
+
+
+def test_spline_of_a_face_equals_its_rows(cylinder, lattices):
+    points = np.random.default_rng(0).normal(size=(lattices.count, 3))
+    for index, face in enumerate(cylinder.faces):
+        u0, u1, v0, v1 = face.surface.range
+        uv = np.random.default_rng(1).uniform([u0, v0], [u1, v1], (50, 2))
+        controls, weights = lattices.rows(index, uv)
+        expected = np.einsum("nc,ncx->nx", weights, points[controls])
+        assert lattices.spline(index, points)(uv) == pytest.approx(expected, abs=1e-12)
+
+
+def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
+    angle = 0.1
+    rotation = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+    points = fitted(lattices, cylinder.faces, lambda x: x @ rotation.T - x)
+    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    jet = stiffness.places.displaced(lattices, points, 3)
+    normal = normals(jet, stiffness.places.outward)[0]
+    inside = stiffness.places.inside
+    hessian = np.matmul(stiffness.hessian, points[lattices.controls][:, None])
+    bending = hessian - stiffness.curvature[..., None] * (normal - stiffness.normal)[:, :, None, :]
+    strain = stiffness.strain(lattices, points, normal, np.full(len(inside), 3.0))[0]
+    # A cubic with spans of 25° follows a circle's field to about 1e-3 of its size; its second derivative to 1 %.
+    assert np.abs(bending[inside]).max() < 0.02 * angle / 12
+    assert np.abs(strain[inside]).max() < 2e-3 * angle
+
+
+def test_strain_derivative(cylinder, lattices):
+    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    random = np.random.default_rng(3)
+    points, change = 0.1 * random.normal(size=(2, lattices.count, 3))
+    thickness = np.zeros(len(lattices.controls))
+    normal = normals(stiffness.places.displaced(lattices, points, 3), stiffness.places.outward)[0]
+    rows = stiffness.strain(lattices, points, normal, thickness)[1]
+    step = 1e-6
+    ends = [stiffness.strain(lattices, points + s * change, normal, thickness)[0] for s in (step, -step)]
+    expected = (ends[0] - ends[1]) / (2 * step)
+    assert np.einsum("skpcx,scx->skp", rows, change[lattices.controls]) == pytest.approx(expected, abs=1e-6)
+
+
+def test_fronts_solve_and_invert_like_a_dense_matrix():
+    side = 14
+    place = np.stack(np.meshgrid(np.arange(side), np.arange(side), [0.0], indexing="ij"), -1).reshape(-1, 3)
+    near = np.abs(place[:, None] - place[None]).max(axis=2) <= 2
+    graph = csr_matrix(near.astype(np.int32))
+    random = np.random.default_rng(5)
+    rows, columns = np.nonzero(near)
+    dense = np.zeros((len(place), 3, len(place), 3))
+    dense[rows, :, columns, :] = random.normal(size=(len(rows), 3, 3))
+    dense = dense.reshape(3 * len(place), -1)
+    dense = dense + dense.T + 80 * np.eye(len(dense))
+    blocks = dense.reshape(len(place), 3, len(place), 3)[rows, :, columns, :]
+    fronts = dissect(graph, place)
+    assert sorted(np.concatenate([front.own for front in fronts])) == list(range(len(place)))
+    assert len(fronts) > 2
+    factor = FrontCholesky(FrontLayout(fronts, rows, columns), blocks)
+    right = random.normal(size=len(dense))
+    assert factor.solve(right) == pytest.approx(np.linalg.solve(dense, right), abs=1e-10)
+    inverse = np.linalg.inv(dense).reshape(len(place), 3, len(place), 3)[rows, :, columns, :]
+    assert factor.inverse_blocks() == pytest.approx(inverse, abs=1e-10)
+
+
+def test_poles_move_as_one_point():
+    part = joint_part(read(Part.makeCone(0.0, 10.0, 20.0)))
+    lattices = build_lattices(part.faces, SPAN, TURNING, {})
+    points = exact_ends(part, lattices, np.random.default_rng(0).normal(size=(lattices.count, 3)))
+    apex = next(edge for edge in part.edges if edge.degenerate)
+    moved = lattices.spline(apex.faces[0], points)(apex.uv[0])
+    assert np.ptp(moved, axis=0) == pytest.approx(0, abs=1e-12)
+
+
+def test_statistics_of_a_plane():
+    random = np.random.default_rng(7)
+    points = np.column_stack([random.uniform(0, [80, 50], (40000, 2)), random.normal(0, 0.1, 40000)])
+    found = scan_statistics(points)
+    # Sixteen neighbours: the density's median is biased by some per cent, the plane's fit by the third dimension.
+    assert found.density == pytest.approx(10, rel=0.3)
+    assert found.noise == pytest.approx(0.1, rel=0.3)
