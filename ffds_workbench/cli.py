@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from . import RESOURCES, __version__, cli_seams, cli_simulate
+from . import RESOURCES, __version__, cli_seams, cli_simulate, cli_weld
 from .benchmark import NAMES as BENCHMARKS
 from .errors import FfdsError, InputError, RefusedError
 from .scan.units import MILLIMETRES
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 FAILED, INTERRUPTED = 3, 130
 DEBUG = "FFDS_DEBUG"
 """Set this variable to see the traceback of an internal error."""
+_DEMO_SEAM = ["Edge7"]
 
 
 class _Parser(argparse.ArgumentParser):
@@ -92,6 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_deviation(commands)
     cli_simulate.add(commands)
     cli_seams.add(commands)
+    cli_weld.add(commands)
     _add_demo(commands)
     _add_benchmark(commands)
     return parser
@@ -188,19 +190,18 @@ def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 
 def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
-    """``ffds demo``: the main job on the example, with everything it can write."""
+    """``ffds demo``: the main job on the example, and a weld along the rim of its end face."""
     from . import api
 
-    folder = _folder(options.out)
-    out, report, picture = folder / "bracket_as_built.step", folder / "report.json", folder / "deviation.png"
+    folder = cli_weld.make_folder(options.out)
     example = RESOURCES / "examples"
     progress("Reading the example")
     model = api.read_model(example / "bracket.step")
     scan = api.read_scan(example / "bracket_scan.ply")
     result = api.register(model, scan, progress=progress)
-    progress(f"Writing {folder}")
-    api.write(result, out, report, picture)
-    return f"{result.table()}\n\n{_written(out, report, picture)}"
+    wanted = cli_weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
+    text = cli_weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
+    return f"{text}\n\nWritten: {folder / cli_weld.PAGE} and what it shows"
 
 
 def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
@@ -208,7 +209,7 @@ def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
     from . import _freecad
 
     _freecad.activate()
-    folder = _folder(options.out)
+    folder = cli_weld.make_folder(options.out)
     text = importlib.import_module(f"ffds_workbench.benchmark.{options.name}").run(folder, progress)
     return f"{text or ''}\n\nWritten: {folder}".strip()
 
@@ -218,14 +219,6 @@ def _read(api_module: api, options: argparse.Namespace, progress: ProgressLine) 
     model = api_module.read_model(options.model, options.object)
     progress(f"Reading {', '.join(str(path) for path in options.scan)}")
     return model, api_module.read_scan(options.scan, options.scan_unit)
-
-
-def _folder(path: Path) -> Path:
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"The output folder {path} cannot be made: {error.strerror}.") from error
-    return path
 
 
 def _written(*paths: Path | None) -> str:

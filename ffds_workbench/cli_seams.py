@@ -6,9 +6,13 @@ import argparse
 import math
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .errors import InputError
 from .terminal import ProgressLine
+
+if TYPE_CHECKING:
+    from . import api
 
 LIMITS = ("lateral", "normal", "longitudinal", "gap", "opening", "rotation")
 
@@ -21,10 +25,23 @@ def add(commands: argparse._SubParsersAction) -> None:
 
 def _add_seams(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("seams", help="weld seams of the as-built model, and the robot's program")
-    # Lets "--start -5,0,0" pass: argparse knows single negative numbers only.
-    command._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
     command.add_argument("model", type=Path, metavar="AS_BUILT", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
+    compare = command.add_argument_group("what to compare with")
+    compare.add_argument("--nominal", type=Path, metavar="MODEL", help="the model that the as-built one was made from")
+    compare.add_argument("--bands", type=Path, metavar="REPORT.json", help="the report that register wrote")
+    add_options(command)
+    command.add_argument("--out", nargs="+", action="extend", type=Path, required=True, metavar="PATH",
+                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .FCStd (FreeCAD's robots)")
+    command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
+    command.add_argument("--picture", type=Path, metavar="OUT.png", help="the seams and their figures along the length")
+    command.set_defaults(run=seams)
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add what says which seams, how to weld them, what passes, and for which tool and base."""
+    # Lets "--start -5,0,0" pass: argparse knows single negative numbers only.
+    command._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
     which = command.add_argument_group("which seams")
     which.add_argument("--edge", nargs="+", action="extend", default=[], metavar="EdgeN",
                        help="edges, joined where they go on along tangency; with --auto, only the joints along them")
@@ -32,11 +49,8 @@ def _add_seams(commands: argparse._SubParsersAction) -> None:
     which.add_argument("--chain", action="store_true", help="add the edges that go on from the named ones along tangency")
     which.add_argument("--start", type=_numbers(3), metavar="X,Y,Z", help="where a closed seam starts, or the end to start at")
     which.add_argument("--reverse", action="store_true", help="weld in the other direction")
-    compare = command.add_argument_group("what to compare with")
-    compare.add_argument("--nominal", type=Path, metavar="MODEL", help="the model that the as-built one was made from")
-    compare.add_argument("--bands", type=Path, metavar="REPORT.json", help="the report that register wrote")
-    compare.add_argument("--limit", nargs="+", action="extend", default=[], type=_limit, metavar="NAME=VALUE",
-                         help=f"what passes: {', '.join(LIMITS)}, in mm and degrees (default: 1, 1, 2, 0.5, 5, 5)")
+    which.add_argument("--limit", nargs="+", action="extend", default=[], type=_limit, metavar="NAME=VALUE",
+                       help=f"what passes: {', '.join(LIMITS)}, in mm and degrees (default: 1, 1, 2, 0.5, 5, 5)")
     torch = command.add_argument_group("stations and torch")
     torch.add_argument("--step", type=float, default=5.0, metavar="MM", help="largest distance of stations (default: 5)")
     torch.add_argument("--chord", type=float, default=0.05, metavar="MM",
@@ -49,11 +63,6 @@ def _add_seams(commands: argparse._SubParsersAction) -> None:
     robot.add_argument("--velocity", type=float, default=10.0, metavar="MM/S", help="along the seam (default: 10)")
     robot.add_argument("--approach", type=float, default=50.0, metavar="MM",
                        help="distance to approach from and retract to (default: 50)")
-    command.add_argument("--out", nargs="+", action="extend", type=Path, required=True, metavar="PATH",
-                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .FCStd (FreeCAD's robots)")
-    command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
-    command.add_argument("--picture", type=Path, metavar="OUT.png", help="the seams and their figures along the length")
-    command.set_defaults(run=seams)
 
 
 def _add_carry(commands: argparse._SubParsersAction) -> None:
@@ -95,11 +104,7 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
 
     inputs = [path for path in (options.model, options.nominal, options.bands) if path is not None]
     api.check_seam_outputs(options.out, (options.report, options.picture), inputs)
-    robot = api.RobotSettings(_frame(api, options.tool), _frame(api, options.base), options.velocity, options.approach)
-    settings = api.SeamSettings(step=options.step, chord=options.chord, work_angle=math.radians(options.work_angle),
-                                travel_angle=math.radians(options.travel_angle), start=options.start,
-                                reverse=options.reverse)
-    limits = api.SeamLimits(**dict(options.limit))
+    robot, settings, limits = read_options(options)
     progress(f"Reading {options.model}")
     as_built = api.read_model(options.model, options.object)
     nominal = None
@@ -114,8 +119,16 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
                         _written(options)])
 
 
-def _frame(api_module, text: str | None):  # type: ignore[no-untyped-def]
-    return None if text is None else api_module.read_frame_choice(text)
+def read_options(options: argparse.Namespace) -> tuple[api.RobotSettings, api.SeamSettings, api.SeamLimits]:
+    """The settings that `add_options` asks for; InputError where they make no sense."""
+    from . import api
+
+    tool, base = (None if text is None else api.read_frame_choice(text) for text in (options.tool, options.base))
+    settings = api.SeamSettings(step=options.step, chord=options.chord, work_angle=math.radians(options.work_angle),
+                                travel_angle=math.radians(options.travel_angle), start=options.start,
+                                reverse=options.reverse)
+    return (api.RobotSettings(tool, base, options.velocity, options.approach), settings,
+            api.SeamLimits(**dict(options.limit)))
 
 
 def _written(options: argparse.Namespace) -> str:

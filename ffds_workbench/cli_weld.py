@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command ``./ffds weld``: the whole way from a scan to the robot's program, with one page that shows each step."""
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import cli_seams
+from .errors import InputError
+from .output import replacing
+from .report.page import Step, page
+from .scan.units import MILLIMETRES
+from .terminal import Progress
+
+if TYPE_CHECKING:
+    from . import api
+
+DIALECTS = {"kuka": "seams.src", "abb": "seams.mod", "ur": "seams.script"}
+PAGE = "report.html"
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which seams to weld, and how.
+
+    Attributes
+    ----------
+    edges, auto, chain : as for ``api.plan_seams``
+    robot, settings, limits : for the programs, the stations and the verdict
+    dialects : of `DIALECTS`
+    """
+
+    edges: Sequence[str]
+    auto: float | None
+    chain: bool
+    robot: api.RobotSettings
+    settings: api.SeamSettings
+    limits: api.SeamLimits
+    dialects: Sequence[str] = tuple(DIALECTS)
+
+
+def add(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line's parser."""
+    command = commands.add_parser("weld", help="all in one: scan, as-built model, seams, robot programs, and a page on it")
+    command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
+    command.add_argument("scan", type=Path, nargs="+", metavar="SCAN", help="several of one part are fused")
+    command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
+    command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
+    command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
+                         help="faces to deform (default: every face that the scan observes)")
+    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN", help="faces that must not move")
+    cli_seams.add_options(command)
+    command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS), help="default: all three")
+    command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for all that comes of it")
+    command.set_defaults(run=weld)
+
+
+def weld(options: argparse.Namespace, progress: Progress) -> str:
+    """``ffds weld``: the tables to print."""
+    from . import api
+
+    if not options.edge and options.auto is None:
+        raise InputError("No seam was named: give --edge, or --auto with the distance within which parts count as touching.")
+    robot, settings, limits = cli_seams.read_options(options)
+    folder = make_folder(options.out)
+    progress(f"Reading {options.model}")
+    model = api.read_model(options.model, options.object)
+    progress(f"Reading {', '.join(map(str, options.scan))}")
+    scan = api.read_scan(options.scan, options.scan_unit)
+    wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
+    result = api.register(model, scan, options.face, freeze=options.freeze, progress=progress)
+    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress)
+    return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
+
+
+def make_folder(path: Path) -> Path:
+    """The folder, made where it is missing (InputError where that cannot be)."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"The output folder {path} cannot be made: {error.strerror}.") from error
+    return path
+
+
+def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str, inputs: Sequence[Path],
+                progress: Progress) -> str:
+    """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print."""
+    from . import api
+
+    report, picture = folder / "report.json", folder / "deviation.png"
+    progress(f"Writing {folder / as_built}")
+    api.write(result, folder / as_built, report, picture, inputs)
+    progress("Finding and measuring the seams")
+    plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report, wanted.settings,
+                          wanted.limits)
+    programs = [DIALECTS[dialect] for dialect in wanted.dialects]
+    outs = [folder / name for name in ("seams.csv", *programs, "seams.FCStd")]
+    notes = [*plan.notes, *api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs)]
+    seams = "\n".join([plan.table(), *(f"Note: {note}" for note in notes)])
+    if "kuka" in wanted.dialects:
+        programs.append("seams.dat")
+    steps = [
+        Step("Scan", "What the scanner saw, in the model's coordinates.", _about_scan(result.scan)),
+        Step("As-built model", "The nominal model deformed to the scan, with its topology unchanged.", result.table(),
+             picture.name, [as_built, report.name]),
+        Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.", seams,
+             "seams.png", ["seams.csv", "seams.json"]),
+        Step("Robot programs", "The same poses in each dialect, in the frame of the model.",
+             _about_robot(wanted.robot), None, [*programs, "seams.FCStd"])]
+    with replacing(folder / PAGE) as (temporary,):
+        temporary.write_text(page(result.nominal.label, "From the scan to the robot's program.", steps), "utf-8")
+    return f"{result.table()}\n\n{seams}"
+
+
+def _about_scan(scan: api.PointCloud) -> str:
+    low, high = scan.points.min(axis=0), scan.points.max(axis=0)
+    size = " × ".join(f"{length:.1f}" for length in high - low)
+    return f"{len(scan.points)} points over {size} mm" + (f", {scan.dropped} dropped" if scan.dropped else "")
+
+
+def _about_robot(robot: api.RobotSettings) -> str:
+    return (f"{robot.velocity:g} mm/s along the seams; approach and retract over {robot.approach:g} mm; "
+            f"tool {robot.tool if robot.tool is not None else 'of the controller'}; "
+            f"base {robot.base if robot.base is not None else 'of the robot'}")
