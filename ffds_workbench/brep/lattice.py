@@ -99,8 +99,9 @@ class Direction:
             worst = np.argsort(errors)[::-1][:room]
             pieces = np.where(np.isin(np.arange(len(pieces)), worst), pieces, 1)
         new = [a + (b - a) * np.arange(1, k) / k for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
-        interior = np.sort(np.concatenate([self.interior, *new])) if new else self.interior
-        return Direction(self.start, self.end, interior, self.closed)
+        if not new:
+            return self
+        return Direction(self.start, self.end, np.sort(np.concatenate([self.interior, *new])), self.closed)
 
 
 def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction:
@@ -142,7 +143,7 @@ def _errors(f: GridFunction, surface: SplineSurface, u: Direction, v: Direction)
 
 
 def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Array, tolerance: float,
-                most: int = 1200, rounds: int = 12) -> SplineSurface:
+                most: int = 60_000, rounds: int = 12) -> SplineSurface:
     """Cubic spline surface that interpolates ``f`` at Greville points, its knots refined until it is close enough.
 
     Parameters
@@ -151,7 +152,7 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
     box : parameter box; closed directions get a periodic C2 basis
     seeds_u, seeds_v : interior knots to start from, repeated for multiplicity (a kink of ``f`` needs three)
     tolerance : largest distance from ``f`` in mm, checked at three points in every span
-    most : largest number of interior knots in one direction
+    most : largest number of control points; a function too rough for it is met less closely
     rounds : largest number of refinements
 
     Notes
@@ -165,7 +166,8 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
         error_u, error_v = _errors(f, surface, u, v)
         if max(error_u.max(), error_v.max()) <= tolerance:
             break
-        finer_u, finer_v = u.refined(error_u, tolerance, most), v.refined(error_v, tolerance, most)
+        finer_u = u.refined(error_u, tolerance, most // len(v.sites))
+        finer_v = v.refined(error_v, tolerance, most // len(finer_u.sites))
         if finer_u is u and finer_v is v:
             break
         u, v = finer_u, finer_v
