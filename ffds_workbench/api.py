@@ -72,6 +72,8 @@ Lattice = tuple[int, int] | str
 BOOLEAN_CHECK_SECONDS = 4.0
 """How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
 without it: it can take minutes."""
+SURFACE_TOLERANCE = 1e-5
+"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement: far below any scan's noise."""
 _PAPER_LATTICE = (10, 10)
 
 
@@ -168,7 +170,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
     with watch.stage("rebuild", "Rebuilding the model"):
         moving = {index: item.displacement for index, item in registrations.items()}
         displacements = local_displacements(part, moving, frozen)
-        shape = rebuild(part, displacements)
+        shape = rebuild(part, displacements, SURFACE_TOLERANCE)
     with ThreadPoolExecutor(1) as background:
         checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
         with watch.stage("certify", "Checking the topology"):
@@ -362,16 +364,31 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
 
 def _compare(nominal: Workpiece, built: Workpiece, indices: Sequence[int], cloud: PointCloud, shape: Part.Shape
              ) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
-    """Deviations before and after of the points that lie on the as-built faces; the same points in both."""
+    """Deviations before and after of the points that lie on the as-built faces; the same points in both.
+
+    Faces around the registered ones take part in the contest for points, so that none is blamed for its neighbour's.
+    """
     reach = reach_of(_diagonal(shape))
-    after = measure([built.geometry(index) for index in indices], cloud.points, reach)
+    around = _faces_near(built, indices, reach)
+    measured = dict(zip(around, measure([built.geometry(index) for index in around], cloud.points, reach), strict=True))
     pairs = []
-    for index, item in zip(indices, after, strict=True):
+    for index in indices:
+        item = measured[index]
         first = measure_again(nominal.geometry(index), cloud.points, item, 3.0 * reach)
         same = np.isin(item.points, first.points)
         pairs.append((first, replace(item, points=item.points[same], deviations=item.deviations[same],
                                      normals=item.normals[same])))
     return tuple(first for first, _ in pairs), tuple(second for _, second in pairs)
+
+
+def _faces_near(part: Workpiece, indices: Sequence[int], reach: float) -> list[int]:
+    """Faces whose boxes come within ``reach`` of those of the faces ``indices``, these included."""
+    boxes = [face.face.BoundBox for face in part.faces]
+    low = np.array([(box.XMin, box.YMin, box.ZMin) for box in boxes]) - reach
+    high = np.array([(box.XMax, box.YMax, box.ZMax) for box in boxes]) + reach
+    chosen = np.asarray(indices)
+    meet = (low[:, None] <= high[chosen]) & (high[:, None] >= low[chosen])
+    return np.flatnonzero(meet.all(axis=2).any(axis=1)).tolist()
 
 
 def _report(part: Workpiece, cloud: PointCloud, registrations: Sequence[FaceRegistration],
