@@ -104,6 +104,13 @@ class Raster:
         count = self.shape[axis]
         return x - count * np.floor(x * (1 / count))
 
+    def nearest_turn(self, difference: Array, axis: int) -> Array:
+        """Differences of cell coordinates along one axis, the short way round where the direction is closed."""
+        if not self.periodic[axis]:
+            return difference
+        count = self.shape[axis]
+        return difference - count * np.rint(difference * (1 / count))
+
     def cell(self, x: Array, y: Array) -> Index:
         """The cell of (n,) cell coordinates, −1 outside the parameter range."""
         i, j = (np.floor(self.wrapped(a, k)).astype(np.intp) for k, a in enumerate((x, y)))

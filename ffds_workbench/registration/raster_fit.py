@@ -41,8 +41,9 @@ class RobustSettings:
     curvature, length : expected bending of the displacement (1/mm) and the length over which it varies (mm); their
         product squared is the variance that weighs the bending energy
     gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
-    schedule : bending multiplier and gate in mm of each early step, on the layers of the scan
-    final : the same for the last steps, on all points
+    stiff : bending multiplier and gate in mm of the first steps, on all layers of the scan
+    soft : the same for the next ones, on the layers that hang together
+    final : the same for the last ones, on the points
     sample : number of scan points that the early steps look at
     """
 
@@ -51,7 +52,8 @@ class RobustSettings:
     curvature: float = 0.002
     length: float = 10.0
     gauge: float = 1e-2
-    schedule: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0), (1e2, 1.5), (30, 1.2), (10, 1.0))
+    stiff: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0))
+    soft: tuple[tuple[float, float], ...] = ((1e2, 1.5), (30, 1.2), (10, 1.0))
     final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
     sample: int = 20000
 
@@ -145,9 +147,10 @@ class RasterFit:
         control_points = self._solve(row, target, certainty, stiffness)
         return self._state(control_points, total, int(np.count_nonzero(weight)), new_noise)
 
-    def layer_weights(self, state: State, layers: Layers, noise: float, gate: float) -> Array:
-        """Weights of layers about the surface of a state: their points, 0 for what is not the face."""
-        return self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * noise))[2]
+    def look(self, state: State, layers: Layers, gate: float) -> tuple[Array, Array]:
+        """Heights of layers over the surface of a state, and their weights about it."""
+        _, residual, weight = self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * layers.noise))
+        return residual, weight
 
     def field(self, state: State) -> SplineSurface:
         """The displacement of a state as a spline in mm."""
@@ -165,7 +168,7 @@ class RasterFit:
         cells = np.arange(m * n)
         x, y, height, valid = newton_in_cells(raster, (raster.position + state.d).T, cells)
         i, j = np.divmod(cells, n)
-        shift_x, shift_y = _nearest_turn(x - i - 0.5, m, raster.periodic[0]), _nearest_turn(y - j - 0.5, n, raster.periodic[1])
+        shift_x, shift_y = raster.nearest_turn(x - i - 0.5, 0), raster.nearest_turn(y - j - 0.5, 1)
         (xx, xy), (yx, yy), (hx, hy) = (raster.gradient(f) for f in (shift_x, shift_y, height))
         xx, yy = xx + 1, yy + 1
         jacobian = xx * yy - xy * yx
@@ -199,8 +202,8 @@ class RasterFit:
             outside = cell < 0
             cell[outside] = 0
             i, j = np.divmod(cell, raster.shape[1])
-            dx = _nearest_turn(points.x - i - 0.5 - graph.shift_x[cell], raster.shape[0], raster.periodic[0])
-            dy = _nearest_turn(points.y - j - 0.5 - graph.shift_y[cell], raster.shape[1], raster.periodic[1])
+            dx = raster.nearest_turn(points.x - i - 0.5 - graph.shift_x[cell], 0)
+            dy = raster.nearest_turn(points.y - j - 0.5 - graph.shift_y[cell], 1)
         residual = points.height - graph.height[cell]
         residual -= graph.slope_x[cell] * dx
         residual -= graph.slope_y[cell] * dy
@@ -227,7 +230,3 @@ class RasterFit:
             values = tensor_product(self.basis_u[a], self.basis_v[b], control_points)
             fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
         return State(*fields, control_points, weights, points, noise)
-
-
-def _nearest_turn(x: Array, period: int, periodic: bool) -> Array:
-    return x - period * np.rint(x * (1 / period)) if periodic else x

@@ -18,6 +18,7 @@ from .control_lattice import displacement_lattice
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, surface_coordinates
 from .lattice_size import automatic_lattice, coarse_lattice
+from .patches import main_patches, patches, proven
 from .raster import Raster, make_raster
 from .raster_fit import RasterFit, RobustSettings
 from .result import FaceRegistration
@@ -53,11 +54,18 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     _check_lattice(face, fit, points)
     state = fit.moved(rigid_start(raster, layers))
-    for stiffness, gate in settings.schedule:
+    for stiffness, gate in settings.stiff:
         state = fit.step(state, layers, layers.noise, stiffness, gate)
+    residual, weights = fit.look(state, layers, gate)
+    label = patches(raster, layers, residual)
+    trusted = main_patches(label, weights)
+    for stiffness, gate in settings.soft:
+        state = fit.step(state, layers.part(trusted), layers.noise, stiffness, gate)
+    residual, weights = fit.look(state, layers, gate)
+    believed = proven(raster, layers, label, trusted, residual, settings.final[-1][1] + layers.noise, settings.curvature)
+    points = points.outside(layers.part(~believed).cells() & ~layers.part(believed).cells())
     if lattice is None:
-        weights = fit.layer_weights(state, layers, layers.noise, settings.schedule[-1][1])
-        best = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
+        best = automatic_lattice(face.surface, raster, layers, weights * believed, settings.stiffness)
         if best != size:
             fit = RasterFit(face, raster, displacement_lattice(face.surface, best), settings)
     noise = layers.noise

@@ -75,6 +75,20 @@ class Layers:
         """The layers as if each were one scan point."""
         return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height, self.shape)
 
+    def part(self, kept: NDArray[np.bool_]) -> Layers:
+        """The layers of a mask."""
+        block = np.repeat(np.arange(len(self.first)), np.diff(np.append(self.first, len(kept))))[kept]
+        return Layers(self.order, self.begin[kept], self.end[kept], np.flatnonzero(np.diff(block, prepend=-1)),
+                      self.x[kept], self.y[kept], self.height[kept], self.count[kept], self.thin[kept], self.noise,
+                      self.density, self.block, self.shape)
+
+    def cells(self) -> NDArray[np.bool_]:
+        """Whether a cell lies in a block with layers, (m·n,)."""
+        rows, columns = (np.arange(k) // self.block for k in self.shape)
+        seen = np.zeros((rows[-1] + 1, columns[-1] + 1), dtype=bool)
+        seen[self.x.astype(np.intp) // self.block, self.y.astype(np.intp) // self.block] = True
+        return seen[np.ix_(rows, columns)].ravel()
+
     def outermost(self, residual: Array, window: float) -> NDArray[np.bool_]:
         """Whether a layer is the outermost of its block of those within ``window`` mm of a surface.
 
