@@ -33,6 +33,7 @@ import FreeCAD  # noqa: E402, F401 (Part needs FreeCAD to be loaded first)
 import Part  # noqa: E402
 
 from .brep import files, workpiece  # noqa: E402
+from .brep.built import built_geometry  # noqa: E402
 from .brep.field import local_displacements  # noqa: E402
 from .brep.files import Model  # noqa: E402
 from .brep.rebuild import rebuild  # noqa: E402
@@ -177,7 +178,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
             certificate = certify(nominal.shape, shape, None)
             certificate.enforce()
         with watch.stage("deviation", "Measuring the deviation"):
-            before, after = _compare(part, workpiece.read(shape), list(registrations), cloud, nominal.shape)
+            before, after = _compare(part, shape, list(registrations), cloud)
         with watch.stage("certify", "Waiting for the check for Boolean operations"):
             certificate = _with_checks(certificate, *checks.result())
     moved = [part.faces[index].name for index in displacements]
@@ -362,15 +363,17 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
     return register_robust(face, cloud.points, None if lattice == "auto" else lattice)
 
 
-def _compare(nominal: Workpiece, built: Workpiece, indices: Sequence[int], cloud: PointCloud, shape: Part.Shape
+def _compare(nominal: Workpiece, built: Part.Shape, indices: Sequence[int], cloud: PointCloud
              ) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
     """Deviations before and after of the points that lie on the as-built faces; the same points in both.
 
     Faces around the registered ones take part in the contest for points, so that none is blamed for its neighbour's.
     """
-    reach = reach_of(_diagonal(shape))
-    around = _faces_near(built, indices, reach)
-    measured = dict(zip(around, measure([built.geometry(index) for index in around], cloud.points, reach), strict=True))
+    reach = reach_of(_diagonal(built))
+    faces = built.Faces
+    around = _faces_near(faces, indices, reach)
+    after = measure([built_geometry(nominal, index, faces[index]) for index in around], cloud.points, reach)
+    measured = dict(zip(around, after, strict=True))
     pairs = []
     for index in indices:
         item = measured[index]
@@ -381,9 +384,9 @@ def _compare(nominal: Workpiece, built: Workpiece, indices: Sequence[int], cloud
     return tuple(first for first, _ in pairs), tuple(second for _, second in pairs)
 
 
-def _faces_near(part: Workpiece, indices: Sequence[int], reach: float) -> list[int]:
+def _faces_near(faces: Sequence[Part.Face], indices: Sequence[int], reach: float) -> list[int]:
     """Faces whose boxes come within ``reach`` of those of the faces ``indices``, these included."""
-    boxes = [face.face.BoundBox for face in part.faces]
+    boxes = [face.BoundBox for face in faces]
     low = np.array([(box.XMin, box.YMin, box.ZMin) for box in boxes]) - reach
     high = np.array([(box.XMax, box.YMax, box.ZMax) for box in boxes]) + reach
     chosen = np.asarray(indices)
