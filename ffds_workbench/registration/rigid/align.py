@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Step 1 of the paper: many poses proposed, the promising ones refined, each verified against the model, the best kept."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..splines import Array
+from .alignment import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
+from .fine import refine
+from .motions import angle, apply, even_rotations, motion, shift
+from .search import Candidates, NearestField, Probe, distinct, field_of, improve, scores
+from .sketch import Plane, Sketch, find_table, sketch_of, thin
+from .symmetry import Symmetry, symmetry_of
+from .target import Target
+from .units import plausible_scales, unit_name
+from .verify import Evidence, examine, is_rough, seen_side
+
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One round of the search.
+
+    Attributes
+    ----------
+    points : of the scan that are looked at
+    widest, closest, steps : gates of the Gauss-Newton steps, as shares of the part's size
+    width : distance, as a share of the size, at which a point counts half in the score
+    kept : poses that go on
+    turn : poses closer than this (rad) are one; 0 keeps them all
+    """
+
+    points: int
+    widest: float
+    closest: float
+    steps: int
+    width: float
+    kept: int
+    turn: float
+
+
+_THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
+             Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
+_QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 6, 0.1), Stage(250, 0.07, 0.03, 6, 0.03, 2, 0.05))
+_QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL, _QUICK_POLISH = 12, 0.5, 900, 20_000, 5_000
+_CLEARLY_RIGHT = 0.75
+"""Score from which a quick answer is taken."""
+_ROTATIONS = 500
+_LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
+"""Turns from the present pose that a fine alignment looks at, and the largest in rad."""
+_FEWEST = 50
+_MAJOR = 0.1
+"""Share of the points from which a piece of surface has a sign of its own in the search."""
+_POLISH_POINTS = 9_000
+_FAILS = 0.57
+"""Score below which a pose is no answer: scans of other parts reach 0.5, of the part itself deformed by 5 % 0.63."""
+_LEAST_COVERAGE = 0.12
+_MARGIN = 0.06
+"""Poses whose scores differ by less than this share of what is left unexplained fit alike."""
+_REACH = 0.02
+"""Distance within which a point counts as on the part, as a share of the part's size."""
+_SAME_TURN, _SAME_SHIFT = 0.035, 0.015
+"""Poses closer than this (rad, share of the part's size) are one."""
+
+
+@dataclass(frozen=True)
+class Verified:
+    """A refined pose with what speaks for it and the outward normals it gives the sketch."""
+
+    pose: Array
+    evidence: Evidence
+    normals: Array
+    reason: str = "found"
+
+
+def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[float] | None = None,
+          seed: int = 0) -> Alignment:
+    """Rigid pose of a scan on the nominal model.
+
+    Parameters
+    ----------
+    target : the model, see ``target_of``
+    scan : (n, 3) in mm, or in a unit that is to be recognised
+    mode : "fine" starts from the present pose and its centroid, "global" from anywhere
+    scales : factors to try on the scan's coordinates; by default those that its size allows
+    seed : of the random choice of points
+
+    Notes
+    -----
+    Coarse to fine: hundreds of poses with 120 points each, by Gauss-Newton steps on a look-up table of nearest samples
+    that face the same way; the few dozen that are left with more points; the best dozen against the exact faces, each
+    verified. The best one is polished on thousands of points.
+    """
+    scales = plausible_scales(scan, target.size) if scales is None else scales
+    answer: Alignment | None = None
+    for scale in scales:
+        attempt = _align_in_mm(target, scan * scale if scale != 1.0 else scan, mode, scale, np.random.default_rng(seed))
+        if answer is None or (attempt.verdict != FAILED) > (answer.verdict != FAILED):
+            answer = attempt
+        if answer.verdict != FAILED:
+            break
+    if answer is None:
+        return _no_answer(f"the scan measures {np.linalg.norm(np.ptp(scan, axis=0)):.3g} mm and the part "
+                          f"{target.size:.3g} mm, which no usual unit explains")
+    return answer
+
+
+def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator: np.random.Generator) -> Alignment:
+    if mode == "fine":
+        quick = _quickly(target, scan, scale, generator)
+        if quick is not None:
+            return quick
+    sketch = sketch_of(scan, generator)
+    table = find_table(sketch, target.shadow, generator)
+    if table is not None:
+        scan = scan[table.heights(scan) > table.tolerance]
+        sketch = sketch_of(scan, generator)
+    if len(sketch.points) < _FEWEST:
+        return _no_answer(f"fewer than {_FEWEST} points of the scan belong together")
+    verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
+    best = _best(verified, mode)
+    pose = _polish(target, sketch, best)
+    best = Verified(pose, examine(target, sketch, pose, _turn(best, pose), table), _turn(best, pose))
+    return _answer(target, sketch, table, best, verified, scale)
+
+
+def _quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
+    """The pose of a clean, nearly whole scan that lies within some 30° of the part; None if it is not clearly right."""
+    sketch = sketch_of(scan, generator, _QUICK_POINTS, _QUICK_POOL)
+    if len(sketch.points) < _FEWEST:
+        return None
+    centre = sketch.points.mean(axis=0)
+    rotations = _turns_up_to(_QUICK_TURN, _QUICK_ROTATIONS)
+    starts = motion(rotations, target.centre - rotations @ centre)
+    verified = _search(target, sketch, None, starts, _QUICK, generator)
+    best = _best(verified, "fine")
+    if best.evidence.score < _CLEARLY_RIGHT:
+        return None
+    pose = _polish(target, sketch, best, _QUICK_POLISH)
+    best = Verified(pose, best.evidence, _turn(best, pose))
+    return _answer(target, sketch, None, best, verified, scale)
+
+
+def _turn(found: Verified, pose: Array) -> Array:
+    """The outward normals in the model's frame after the pose has moved on a little."""
+    return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
+
+
+def _best(verified: Sequence[Verified], mode: str) -> Verified:
+    """The pose that scores best; a fine alignment takes the one that turns least among those that fit alike."""
+    best = max(verified, key=lambda v: v.evidence.score)
+    if mode == "global":
+        return best
+    level = best.evidence.score - _MARGIN * (1.0 - best.evidence.score)
+    alike = [v for v in verified if v.evidence.score >= level]
+    nearest = min(angle(v.pose, np.eye(4)) for v in alike)
+    return max((v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN), key=lambda v: v.evidence.score)
+
+
+def _starts(target: Target, sketch: Sketch, mode: str) -> Array:
+    """Poses to start from, (k, 4, 4)."""
+    if mode == "fine":
+        rotations = _turns_up_to(_LOCAL_TURN, _LOCAL_ROTATIONS)
+        # the last one leaves the part where the scan is now
+        goals = np.concatenate([_centres(sketch.points, target.size), target.centre[None]])
+        return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in goals])
+    centres = _centres(sketch.points, target.size)
+    rotations = even_rotations(_ROTATIONS)
+    return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in centres])
+
+
+def _centres(points: Array, size: float, most: int = 5) -> Array:
+    """Where the part may be in the scan: the centroid, or if the scan is larger than the part, places spread over it."""
+    middle = points.mean(axis=0)
+    if np.linalg.norm(np.ptp(points, axis=0)) < 1.4 * size:
+        return middle[None]
+    centres = [middle]
+    distance = np.linalg.norm(points - middle, axis=1)
+    while len(centres) < most and distance.max() > 0.3 * size:
+        far = points[np.argmax(distance)]
+        around = points[np.linalg.norm(points - far, axis=1) < 0.5 * size].mean(axis=0)
+        centres.append(around)
+        distance = np.minimum(distance, np.minimum(np.linalg.norm(points - around, axis=1),
+                                                   np.linalg.norm(points - far, axis=1)))
+    return np.array(centres)
+
+
+def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, stages: Sequence[Stage],
+            generator: np.random.Generator) -> list[Verified]:
+    """The most promising poses, refined and verified."""
+    share = np.bincount(sketch.piece) / len(sketch.piece)
+    pieces = max(1, int((share[:2] > _MAJOR).sum()))
+    field, size = field_of(target), target.size
+    candidates = Candidates.all_signs(starts, pieces)
+    for stage in stages:
+        chosen = generator.choice(len(sketch.points), min(stage.points, len(sketch.points)), replace=False)
+        piece = np.where(sketch.piece[chosen] < pieces, sketch.piece[chosen], 0)
+        probe = Probe(sketch.points[chosen], sketch.normals[chosen], piece)
+        gates = size * np.geomspace(stage.widest, stage.closest, stage.steps)
+        candidates = improve(field, probe, candidates, gates)
+        score = scores(field, probe, candidates, stage.width * size)
+        if stage.turn:
+            kept = distinct(candidates, score, field.centre, stage.kept, stage.turn, 0.25 * stage.turn * size)
+        else:
+            kept = np.argsort(-score)[: stage.kept]
+        candidates = candidates[kept]
+    return [_verify(target, sketch, table, pose, signs)
+            for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
+
+
+def _turns_up_to(largest: float, count: int) -> Array:
+    """No turn, and turns spread evenly over those of up to ``largest`` rad; (about count, 3, 3)."""
+    share = (largest - np.sin(largest)) / np.pi
+    turns = Rotation.from_matrix(even_rotations(int(count / share))).as_rotvec()
+    near = turns[np.linalg.norm(turns, axis=1) < largest]
+    return Rotation.from_rotvec(np.concatenate([np.zeros((1, 3)), near])).as_matrix()
+
+
+def _verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
+    piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
+    normals = signs[piece][:, None] * sketch.normals
+    for reach in (0.05, 0.05):
+        moved = apply(pose, sketch.points)
+        side = seen_side(target.light, moved, normals @ pose[:3, :3].T, reach * target.size)
+        pose = refine(side, sketch.points, pose, (0.06 * target.size,), 6)
+    turned = normals @ pose[:3, :3].T
+    return Verified(pose, examine(target.light, sketch, pose, turned, table), turned)
+
+
+def _polish(target: Target, sketch: Sketch, found: Verified, count: int = _POLISH_POINTS) -> Array:
+    """The pose on thousands of points, against the side of the part that the scan shows.
+
+    Where the noise is large the side is a guess, and gross errors reach far: the whole part then, and a closer gate.
+    """
+    points = sketch.pool[thin(sketch.pool, count)]
+    if is_rough(target, sketch):
+        gate = max(0.02 * target.size, 3.0 * sketch.noise)
+        return refine(target, points, found.pose, (2.0 * gate, gate), 15)
+    side = seen_side(target, apply(found.pose, sketch.points), found.normals, 0.05 * target.size)
+    return refine(side, points, found.pose, (0.05 * target.size,), 8)
+
+
+def _answer(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
+            scale: float) -> Alignment:
+    """The verdict: is the best pose good enough, and does another one fit as well?"""
+    evidence = best.evidence
+    symmetry = symmetry_of(target)
+    rivals = _rivals(target, sketch, table, best, verified, symmetry)
+    poses = (CandidatePose(best.pose, evidence.score, "found"),
+             *(CandidatePose(rival.pose, rival.evidence.score, rival.reason) for rival in rivals))
+    moved = apply(best.pose, sketch.pool)
+    distance = target.tree.query(moved)[0]
+    reach = max(_REACH * target.size, 2.5 * sketch.noise)
+    near = distance < reach
+    closest = target.tree.query(moved[near])[1]
+    height = target.heights(moved[near], closest)[0] if near.any() else np.zeros(1)
+    reason, verdict = "", OK
+    if evidence.score < _FAILS or evidence.coverage < _LEAST_COVERAGE:
+        verdict, poses = FAILED, poses[:1]
+        reason = (f"only {100 * evidence.explained:.0f} % of the scan lies on the part and only "
+                  f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
+    elif rivals:
+        verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
+    margin = min((evidence.score - _FAILS) / (1.0 - _FAILS), 1.0)
+    confidence = float(np.clip(margin, 0.0, 1.0)) / (len(poses) if verdict == AMBIGUOUS else 1)
+    return Alignment(best.pose, verdict, confidence, poses, reach, float(near.mean()),
+                     float(np.sqrt(np.mean(height**2))), evidence.explained, evidence.coverage, symmetry.text(), scale,
+                     unit_name(scale), table is not None, reason)
+
+
+def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
+            symmetry: Symmetry) -> list[Verified]:
+    """Other poses that fit as well as the best: the part's symmetry, and what else the search found."""
+    turned = []
+    for pose, exact in zip(symmetry.motions, symmetry.exact, strict=True):
+        if exact:
+            turned.append(Verified(pose @ best.pose, best.evidence, best.normals, "symmetry of the part"))
+    margin = _MARGIN * (1.0 - best.evidence.score)
+    place = sketch.points.mean(axis=0)
+    rivals: list[Verified] = []
+    for other in [*turned, *sorted(verified, key=lambda v: -v.evidence.score)]:
+        new = all(angle(other.pose, known.pose) > 2.0 * _SAME_TURN
+                  or shift(other.pose, known.pose, place) > 2.0 * _SAME_SHIFT * target.size
+                  for known in (best, *rivals))
+        if new and other.evidence.score > best.evidence.score - margin:
+            rivals.append(other)
+    return rivals
+
+
+def _no_answer(reason: str) -> Alignment:
+    return Alignment(np.eye(4), FAILED, 0.0, (), 0.0, 0.0, 0.0, 0.0, 0.0, "", 1.0, "mm", False, reason)

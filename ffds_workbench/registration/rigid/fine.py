@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Coarse-to-fine iterative closest point: point to surface, with the faces' curvature and Tukey's weights."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..splines import Array
+from .motions import apply, step
+from .target import Target
+
+_SETTLE = 9.0
+"""Cut-off of the last stage in robust standard deviations of the residuals: noise and deformation count in full."""
+_STILL = 1e-5
+"""A step below this share of the part's size ends a stage."""
+
+
+def tukey(residual: Array, cutoff: float | Array) -> Array:
+    """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""
+    ratio = residual / cutoff
+    return np.where(np.abs(ratio) < 1.0, (1.0 - ratio * ratio) ** 2, 0.0)
+
+
+def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12) -> Array:
+    """Rigid pose at which the points fit the faces best, found from a pose nearby.
+
+    A point counts by its height over the face, and where it sticks out beyond the rim of the face, by that as well.
+
+    Parameters
+    ----------
+    target : the nominal model, or the part of it that the scan sees
+    points : (n, 3) in mm, scan coordinates
+    pose : (4, 4), T_model_scan to start from
+    gates : largest distances in mm that still count, one stage each, in falling order; within the gate the cut-off of
+        the weights follows the spread of the residuals
+    iterations : most steps per stage
+
+    Returns
+    -------
+    (4, 4), T_model_scan
+    """
+    for gate in gates:
+        for _ in range(iterations):
+            moved = apply(pose, points)
+            distance, nearest = target.tree.query(moved, distance_upper_bound=gate)
+            near = np.isfinite(distance)
+            if near.sum() < 12:
+                return pose
+            moved, nearest = moved[near], nearest[near]
+            height, normal = target.heights(moved, nearest)
+            beyond, outwards = target.rims.overshoot(moved, target.samples.face[nearest], gate)
+            spread = 1.4826 * float(np.median(np.abs(height)))
+            limit = np.clip(_SETTLE * spread, 1e-3 * gate, gate)
+            out = np.flatnonzero(beyond > 0)
+            weight = np.concatenate([tukey(height, limit), tukey(beyond[out], gate)])
+            update = gauss_newton(np.concatenate([moved, moved[out]]) - target.centre,
+                                  np.concatenate([normal, outwards[out]]),
+                                  np.concatenate([height, beyond[out]]), weight, target.size)
+            pose = step(update, target.centre) @ pose
+            if np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2 < _STILL * target.size:
+                break
+    return pose
+
+
+def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: float) -> Array:
+    """Twist (6,) about the target's centre that takes the heights to zero in the least squares.
+
+    A prior of 1e-6 of the points' weight keeps directions that nothing observes at rest; a turn counts as the shift
+    it makes at half the part's size.
+    """
+    scale = np.array([2.0 / size] * 3 + [1.0] * 3)
+    jacobian = np.concatenate([np.cross(arm, normal), normal], axis=1) * scale
+    matrix = (jacobian * weight[:, None]).T @ jacobian
+    matrix += np.eye(6) * (1e-6 * weight.sum() + 1e-12)
+    return scale * np.linalg.solve(matrix, -jacobian.T @ (weight * height))

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rigid motions as 4×4 matrices, one or many at a time: compose, apply, compare, cover all rotations evenly."""
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..splines import Array
+
+
+def motion(rotation: Array, translation: Array) -> Array:
+    """4×4 matrices from (…, 3, 3) rotations and (…, 3) translations."""
+    result = np.zeros((*np.shape(translation)[:-1], 4, 4))
+    result[..., :3, :3] = rotation
+    result[..., :3, 3] = translation
+    result[..., 3, 3] = 1.0
+    return result
+
+
+def apply(pose: Array, points: Array) -> Array:
+    """Points (n, 3) moved by one pose (4, 4) → (n, 3), or by many (k, 4, 4) → (k, n, 3)."""
+    return points @ np.swapaxes(pose[..., :3, :3], -1, -2) + pose[..., None, :3, 3]
+
+
+def step(twists: Array, centre: Array) -> Array:
+    """Motions that turn by the rotation vectors twists[..., :3] about ``centre`` and shift by twists[..., 3:].
+
+    Parameters
+    ----------
+    twists : (…, 6), rad and mm
+    centre : (3,) or (…, 3) in mm
+    """
+    flat = twists.reshape(-1, 6)
+    rotation = Rotation.from_rotvec(flat[:, :3]).as_matrix().reshape(*twists.shape[:-1], 3, 3)
+    turned = np.einsum("...ij,...j->...i", rotation, np.broadcast_to(centre, (*twists.shape[:-1], 3)))
+    return motion(rotation, centre + twists[..., 3:] - turned)
+
+
+def angle(a: Array, b: Array) -> Array:
+    """Angle in rad between the rotations of poses a and b (broadcast over leading axes)."""
+    trace = np.einsum("...ij,...ij->...", a[..., :3, :3], b[..., :3, :3])
+    return np.arccos(np.clip(0.5 * (trace - 1.0), -1.0, 1.0))
+
+
+def shift(a: Array, b: Array, centre: Array) -> Array:
+    """Distance in mm between where poses a and b put the point ``centre`` (3,)."""
+    difference = a - b
+    return np.linalg.norm(difference[..., :3, :3] @ centre + difference[..., :3, 3], axis=-1)
+
+
+def even_rotations(count: int) -> Array:
+    """``count`` rotation matrices spread evenly over all orientations; (count, 3, 3).
+
+    Source: super-Fibonacci spirals, M. Alexa, CVPR 2022, eq. 4 and 5.
+    """
+    phi, psi = np.sqrt(2.0), 1.533751168755204288118041
+    s = np.arange(count) + 0.5
+    r, big_r = np.sqrt(s / count), np.sqrt(1.0 - s / count)
+    alpha, beta = 2.0 * np.pi * s / phi, 2.0 * np.pi * s / psi
+    quaternions = np.stack([r * np.sin(alpha), r * np.cos(alpha), big_r * np.sin(beta), big_r * np.cos(beta)], axis=1)
+    return Rotation.from_quat(quaternions).as_matrix()
+
+
+def even_directions(count: int) -> Array:
+    """``count`` unit vectors spread evenly over the sphere (Fibonacci lattice); (count, 3)."""
+    k = np.arange(count) + 0.5
+    z = 1.0 - 2.0 * k / count
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * k
+    radius = np.sqrt(1.0 - z * z)
+    return np.stack([radius * np.cos(turn), radius * np.sin(turn), z], axis=1)

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the search for a pose works with: a few thousand even points of the scan with normals, and the table found.
+
+The normals of one connected piece of surface are turned to one side; which side is outside only the model can tell.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
+from scipy.spatial import ConvexHull, QhullError, cKDTree
+
+from ..splines import Array
+
+_POOL = 40_000
+_POINTS = 2_000
+_NEIGHBOURS = (14, 48)
+_ROUGH = 0.15
+"""Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
+_SURE = 0.6
+"""Cosine below which two neighbours say nothing about each other's side."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """Even points of a scan.
+
+    Attributes
+    ----------
+    points, normals : (n, 3) in mm and unit vectors, of one sign within a piece
+    piece : (n,) number of the connected piece, 0 the largest
+    noise : standard deviation in mm of the scan about its own local planes
+    pool : (m, 3) more points of the same surfaces, not thinned
+    """
+
+    points: Array
+    normals: Array
+    piece: NDArray[np.intp]
+    noise: float
+    pool: Array
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane that the scan shows beside the part, with everything else on its positive side.
+
+    Attributes
+    ----------
+    normal : (3,) unit vector
+    offset : normal · x in mm
+    tolerance : points within it belong to the plane, mm
+    """
+
+    normal: Array
+    offset: float
+    tolerance: float
+
+    def heights(self, points: Array) -> Array:
+        return points @ self.normal - self.offset
+
+
+def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS, pool_size: int = _POOL) -> Sketch:
+    """Even points with normals from a random part of the scan; what stands alone is dropped.
+
+    Parameters
+    ----------
+    scan : (n, 3) in mm
+    generator : random choice of the points
+    count : how many points to aim at
+    pool_size : how many points of the scan to look at
+    """
+    pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
+    tree = cKDTree(pool)
+    gaps = tree.query(pool[:2000], k=min(9, len(pool)))[0][:, -1]
+    chosen = thin(pool, count)
+    near = tree.query(pool[chosen], k=min(9, len(pool)))[0][:, -1]
+    chosen = chosen[near < 6.0 * max(float(np.median(gaps)), 1e-9)]
+    points = pool[chosen]
+    for neighbours in _NEIGHBOURS:
+        distance, index = tree.query(points, k=min(neighbours, len(pool)))
+        normals, roughness = _local_planes(pool[index])
+        if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) < _ROUGH:
+            break
+    normals, piece = _turn_to_one_side(points, normals)
+    return Sketch(points, normals, piece, float(np.median(roughness)), pool)
+
+
+def thin(points: Array, count: int) -> NDArray[np.intp]:
+    """Indices of about ``count`` points, one per voxel of a size found by bisection."""
+    if len(points) <= count:
+        return np.arange(len(points))
+    low, high = 0.0, float(np.ptp(points, axis=0).max())
+    base = points - points.min(axis=0)
+    chosen = np.arange(len(points))
+    probe = high / np.sqrt(count)
+    for _ in range(12):
+        cell = np.floor(base / probe).astype(np.int64)
+        key = (cell[:, 0] * 2_097_152 + cell[:, 1]) * 2_097_152 + cell[:, 2]
+        chosen = np.unique(key, return_index=True)[1]
+        if 0.85 * count <= len(chosen) <= 1.15 * count:
+            break
+        low, high = (probe, high) if len(chosen) > count else (low, probe)
+        probe *= np.sqrt(len(chosen) / count)
+        if not low < probe < high:
+            probe = 0.5 * (low + high)
+    return chosen
+
+
+def _local_planes(neighbourhoods: Array, rounds: int = 2) -> tuple[Array, Array]:
+    """Normal and standard deviation about the plane through (n, k, 3) neighbourhoods, the point itself first.
+
+    Repeated with less weight for neighbours off the plane: the other side of a thin sheet is not the same surface.
+    """
+    offset = neighbourhoods - neighbourhoods[:, :1]
+    radius = np.linalg.norm(offset, axis=2).max(axis=1, keepdims=True)
+    weight = np.ones(offset.shape[:2])
+    for turn in range(rounds + 1):
+        total = weight.sum(axis=1)
+        centred = offset - np.einsum("nk,nki->ni", weight, offset)[:, None] / total[:, None, None]
+        values, vectors = np.linalg.eigh(np.swapaxes(centred * weight[:, :, None], 1, 2) @ centred)
+        if turn < rounds:
+            height = np.einsum("nki,ni->nk", offset, vectors[:, :, 0])
+            weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
+    freedom = np.maximum(total - 3.0, 1.0)
+    return vectors[:, :, 0], np.sqrt(np.maximum(values[:, 0], 0.0) / freedom)
+
+
+def _turn_to_one_side(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:
+    """Flip normals so that neighbours agree, along the spanning tree of the surest steps.
+
+    Hoppe et al. (Surface reconstruction from unorganized points, 1992) compare n·n', which says nothing across a right
+    angle; here n is first reflected along the step e, n·n' − 2 (n·e)(n'·e), as a surface does that turns by an arc
+    (König and Gumhold, Consistent propagation of normal orientations in point clouds, 2009).
+    """
+    count = len(points)
+    distance, index = cKDTree(points).query(points, k=min(neighbours, count))
+    start, end = np.repeat(np.arange(count), index.shape[1] - 1), index[:, 1:].ravel()
+    length = distance[:, 1:].ravel()
+    direction = (points[end] - points[start]) / np.maximum(length, 1e-12)[:, None]
+    agrees = _agreement(normals[start], normals[end], direction)
+    linked = (length < 4.0 * np.median(length)) & (np.abs(agrees) > _SURE)
+    start, end, agrees = start[linked], end[linked], agrees[linked]
+    graph = coo_matrix((1.0 + 1e-6 - np.abs(agrees), (start, end)), shape=(count, count)).tocsr()
+    pieces, piece = connected_components(graph, directed=False)
+    spanning = minimum_spanning_tree(graph.maximum(graph.T))
+    spanning = spanning + spanning.T
+    sign = np.ones(count)
+    sizes = np.bincount(piece, minlength=pieces)
+    for number in np.flatnonzero(sizes > 1):
+        order, parent = breadth_first_order(spanning, int(np.argmax(piece == number)), directed=False)
+        child = order[1:]
+        parent = parent[child]
+        along = points[child] - points[parent]
+        along /= np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
+        agrees = _agreement(normals[child], normals[parent], along)
+        for node, above, flip in zip(child.tolist(), parent.tolist(), (agrees < 0).tolist(), strict=True):
+            sign[node] = -sign[above] if flip else sign[above]
+    rank = np.empty(pieces, dtype=np.intp)
+    rank[np.argsort(-sizes)] = np.arange(pieces)
+    return normals * sign[:, None], rank[piece]
+
+
+def _agreement(first: Array, second: Array, direction: Array) -> Array:
+    """n·n' − 2 (n·e)(n'·e) of unit vectors (n, 3)."""
+    dot, rise, fall = (np.einsum("ni,ni->n", a, b) for a, b in ((first, second), (first, direction),
+                                                                 (second, direction)))
+    return dot - 2.0 * rise * fall
+
+
+def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) -> Plane | None:
+    """The plane that the part lies on or stands before, or None.
+
+    It holds a good share of the points, spreads wider than any side of the part could, and has all else on one side.
+
+    Parameters
+    ----------
+    sketch : even points of the whole scan
+    shadow : largest area in mm² that the part can cover on a plane
+    """
+    points, normals = sketch.points, sketch.normals
+    tolerance = max(5.0 * sketch.noise, 2e-3 * float(np.linalg.norm(np.ptp(points, axis=0))))
+    trial = generator.integers(0, len(points), 200)
+    height = points @ normals[trial].T - np.einsum("ni,ni->n", points[trial], normals[trial])
+    inside = (np.abs(height) < tolerance) & (np.abs(normals @ normals[trial].T) > 0.95)
+    best = inside[:, np.argmax(inside.sum(axis=0))]
+    for _ in range(3):
+        centre = points[best].mean(axis=0)
+        vectors = np.linalg.svd(points[best] - centre, full_matrices=False)[2]
+        height = (points - centre) @ vectors[2]
+        best = np.abs(height) < tolerance
+    if best.mean() < 0.15 or best.sum() < 50:
+        return None
+    side = np.sign(np.median(height[~best])) if (~best).any() else 1.0
+    below = float(np.mean(side * height < -tolerance))
+    if below > 0.03:
+        return None
+    try:
+        area = ConvexHull((points[best] - centre) @ vectors[:2].T).volume
+    except QhullError:
+        return None
+    if area < 1.2 * shadow:
+        return None
+    spread = 1.4826 * float(np.median(np.abs(height[best])))
+    normal = side * vectors[2]
+    return Plane(normal, float(normal @ centre), float(np.clip(6.0 * spread, 1e-3 * tolerance, tolerance)))

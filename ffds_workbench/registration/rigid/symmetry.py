@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Motions that map the nominal part onto itself: a scan cannot tell the poses apart that they connect.
+
+Every such motion keeps the area centroid and the inertia of the surface, so only turns about the principal axes come
+into question, and where two principal moments agree, turns about the third axis by any angle.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..splines import Array
+from .fine import refine
+from .motions import angle, apply, even_rotations, motion
+from .target import Target
+
+_EQUAL_MOMENTS = 0.04
+_ANGLES = 72
+_PROBE = 1200
+_NEAR = 0.02
+"""Mean distance, as a share of the part's size, up to which the turned part nearly is the same."""
+_EXACT = 0.004
+"""Distance, as a share of the part's size, within which all of the turned part lies if it is the same."""
+
+
+@dataclass(frozen=True)
+class Symmetry:
+    """Self-motions of the part.
+
+    Attributes
+    ----------
+    motions : (k, 4, 4) without the identity; of a continuous symmetry a few representatives
+    exact : (k,) whether the part is the same after it; else only nearly so
+    axis : (3,) axis of a body of revolution, or None
+    """
+
+    motions: Array
+    exact: Array
+    axis: Array | None
+
+    def text(self) -> str:
+        """One phrase for the user, empty if there is no symmetry."""
+        if self.axis is not None:
+            return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*self.axis)
+        phrases = []
+        for pose in self.motions[self.exact]:
+            turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
+            size = np.linalg.norm(turn)
+            phrases.append("{:.0f}° about ({:.2f}, {:.2f}, {:.2f})".format(np.degrees(size), *turn / size))
+        return "the same after a turn of " + " or ".join(phrases) if phrases else ""
+
+
+@lru_cache(maxsize=4)
+def symmetry_of(target: Target) -> Symmetry:
+    """Find the self-motions of a part."""
+    samples, size = target.samples, target.size
+    arm = samples.points - target.centre
+    weight = samples.area / samples.area.sum()
+    moments, axes = np.linalg.eigh((arm * weight[:, None]).T @ arm)
+    axes[:, 2] *= np.sign(np.linalg.det(axes))
+    generator = np.random.default_rng(0)
+    chosen = generator.choice(len(weight), min(_PROBE, len(weight)), replace=False, p=weight)
+    points = samples.points[chosen]
+    found: list[Array] = []
+    exact: list[bool] = []
+    for family in _families(moments, axes):
+        poses = motion(family, target.centre - family @ target.centre)
+        misses = np.array([_misses(target, points[:150], pose).mean() for pose in poses])
+        if len(poses) == _ANGLES - 1 and misses.max() < 0.5 * _NEAR * size:
+            turned = [_is_exact(target, points, pose) for pose in poses]
+            if all(turned):
+                return Symmetry(poses[8::9], np.ones(len(poses[8::9]), dtype=bool), _axis(poses[8]))
+        lowest = (misses <= np.roll(misses, 1)) & (misses <= np.roll(misses, -1)) if len(poses) > 3 else True
+        for pose in poses[(misses < 2.0 * _NEAR * size) & lowest]:
+            pose = refine(target, points, pose, (4.0 * _NEAR * size, 2.0 * _NEAR * size), 5)
+            new = angle(pose, np.eye(4)) > 0.05 and all(angle(pose, other) > 0.05 for other in found)
+            if new and _misses(target, points, pose).mean() < _NEAR * size:
+                found.append(pose)
+                exact.append(_is_exact(target, points, pose))
+    return Symmetry(np.array(found).reshape(-1, 4, 4), np.array(exact, dtype=bool), None)
+
+
+def _families(moments: Array, axes: Array) -> list[Array]:
+    """Rotations that keep the moments of inertia, neighbours next to one another: a list of (k, 3, 3)."""
+    scale = moments[2]
+    low, high = moments[1] - moments[0] < _EQUAL_MOMENTS * scale, moments[2] - moments[1] < _EQUAL_MOMENTS * scale
+    half_turns = Rotation.from_rotvec(np.pi * axes.T).as_matrix()
+    if low and high:
+        return [rotation[None] for rotation in even_rotations(300)]
+    if not (low or high):
+        return [half_turns]
+    k = 2 if low else 0
+    angles = 2.0 * np.pi * np.arange(1, _ANGLES) / _ANGLES
+    turns = Rotation.from_rotvec(angles[:, None] * axes[:, k]).as_matrix()
+    flip = half_turns[(k + 1) % 3]
+    return [turns, np.concatenate([flip[None], turns @ flip])]
+
+
+def _misses(target: Target, points: Array, pose: Array) -> Array:
+    """Distances in mm of the turned points from the part, beyond what the sampling itself leaves; (n,)."""
+    moved = apply(pose, points)
+    nearest = target.tree.query(moved)[1]
+    height, normal = target.heights(moved, nearest)
+    beside = np.linalg.norm(moved - target.samples.points[nearest] - height[:, None] * normal, axis=1)
+    return np.hypot(height, np.maximum(beside - 1.5 * target.spacing, 0.0))
+
+
+def _is_exact(target: Target, points: Array, pose: Array) -> bool:
+    return bool(np.quantile(_misses(target, points, pose), 0.99) < _EXACT * target.size)
+
+
+def _axis(pose: Array) -> Array:
+    turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
+    return turn / np.linalg.norm(turn)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Does a pose explain the scan, and the scan the part? Judged against the model, whatever proposed the pose."""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ..splines import Array
+from .fine import tukey
+from .motions import apply
+from .sketch import Plane, Sketch
+from .target import Target
+
+_NORMALS_AGREE, _ROUGHLY_AGREE = 0.6, 0.2
+_ROUGH = 0.003
+"""Noise above this share of the part's size hides sides and small features."""
+_MOST_VIEWS = 3
+_NEAR = 0.06
+"""Reach of the smooth deformation that is allowed for, as a share of the part's size."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for a pose.
+
+    Attributes
+    ----------
+    explained : share of the scan (table left out) that lies on the part with matching normals
+    misfit : mean distance of the scan from the part after a smooth deformation is allowed for, capped and as a share
+        of the cap: 0 is perfect, 1 is nothing
+    coverage : share of the part's visible surface that the scan shows
+    missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
+    pierced : share of the part that would lie behind the table
+    """
+
+    explained: float
+    misfit: float
+    coverage: float
+    missing: float
+    pierced: float
+
+    @property
+    def score(self) -> float:
+        """Rank among poses, larger is better, 1 is perfect."""
+        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced
+
+
+def is_rough(target: Target, sketch: Sketch) -> bool:
+    """Whether the noise is so large that normals and the sides of sheets are guesses."""
+    return sketch.noise > _ROUGH * target.size
+
+
+def seen_side(target: Target, points: Array, normals: Array, reach: float) -> Target:
+    """The part of the target that the scan shows: samples near points whose normals face the same way.
+
+    Parameters
+    ----------
+    points, normals : (n, 3) of the scan in model coordinates, normals outward
+    reach : in mm
+    """
+    distance, index = cKDTree(points).query(target.samples.points, k=3, distance_upper_bound=reach)
+    padded = np.concatenate([normals, np.zeros((1, 3))])
+    facing = np.einsum("nki,ni->nk", padded[index], target.samples.normals) > 0.5
+    chosen = (facing & np.isfinite(distance)).any(axis=1)
+    return replace(target, samples=target.samples[chosen]) if chosen.sum() > 100 else target
+
+
+def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None) -> Evidence:
+    """Weigh a pose.
+
+    Parameters
+    ----------
+    sketch : even points of the scan without the table
+    pose : (4, 4), T_model_scan
+    normals : (n, 3) outward normals of the sketch in model coordinates
+    table : the plane beside the part, scan coordinates
+    """
+    size = target.size
+    moved = apply(pose, sketch.points)
+    shown = seen_side(target, moved, normals, 2.0 * _NEAR * size)
+    nearest = shown.tree.query(moved)[1]
+    height, normal = shown.heights(moved, nearest)
+    beside = _beside(shown, moved, nearest, height, normal)
+    agree = np.einsum("ni,ni->n", normals, shown.samples.normals[nearest]) > (
+        _ROUGHLY_AGREE if is_rough(target, sketch) else _NORMALS_AGREE)
+    on_part = agree & (np.abs(height) < _NEAR * size) & (beside < _NEAR * size)
+    left = height - _smooth_part(moved, normal, height, on_part, size)
+    cap = max(0.008 * size, 6.0 * sketch.noise)
+    distance = np.where(agree, np.hypot(left, beside), cap)
+    explained = agree & (distance < cap)
+    misfit = float(np.minimum(distance / cap, 1.0).mean())
+    coverage, missing = _views(target, moved[explained], normals[explained], sketch)
+    pierced = 0.0
+    if table is not None:
+        in_scan = apply(np.linalg.inv(pose), target.even.points)
+        pierced = float(np.mean(table.heights(in_scan) < -max(table.tolerance, 0.04 * size)))
+    return Evidence(float(explained.mean()), misfit, coverage, missing, pierced)
+
+
+def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Array, normal: Array) -> Array:
+    """Distance in mm along the surface from where the face ends to points that lie beyond; (n,)."""
+    along = points - target.samples.points[nearest] - height[:, None] * normal
+    gap = np.maximum(np.linalg.norm(along, axis=1) - 1.5 * target.spacing, 0.0)
+    beyond = target.rims.overshoot(points, target.samples.face[nearest], _NEAR * target.size)[0]
+    return np.maximum(gap, beyond)
+
+
+def _smooth_part(points: Array, normal: Array, height: Array, chosen: NDArray[np.bool_], size: float) -> Array:
+    """Heights that a quadratic displacement of space explains, robustly fitted to the chosen points; (n,)."""
+    x = (points - points.mean(axis=0)) / (0.5 * size)
+    monomials = np.stack([np.ones(len(x)), *x.T, x[:, 0] ** 2, x[:, 1] ** 2, x[:, 2] ** 2,
+                          x[:, 0] * x[:, 1], x[:, 0] * x[:, 2], x[:, 1] * x[:, 2]], axis=1)
+    rows = (monomials[:, :, None] * normal[:, None, :]).reshape(len(x), -1)
+    smooth = np.zeros(len(x))
+    if chosen.sum() < 2 * rows.shape[1]:
+        return smooth
+    for _ in range(4):
+        left = height - smooth
+        spread = 1.4826 * float(np.median(np.abs(left[chosen])))
+        weight = chosen * tukey(left, max(4.0 * spread, 1e-6 * size))
+        matrix = (rows * weight[:, None]).T @ rows
+        matrix += np.eye(len(matrix)) * (1e-2 * weight.sum() / len(matrix) + 1e-12)
+        smooth = rows @ np.linalg.solve(matrix, rows.T @ (weight * height))
+    return smooth
+
+
+def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tuple[float, float]:
+    """Coverage of the visible surface, and what the cameras that best explain it ought to have seen besides."""
+    samples = target.even
+    if len(points) < 12:
+        return 0.0, 1.0
+    area_each = np.median(cKDTree(sketch.points).query(sketch.points[:500], k=2)[0][:, 1])
+    reach = max(3.0 * float(area_each), 0.025 * target.size)
+    distance, index = cKDTree(points).query(samples.points, k=2, distance_upper_bound=reach)
+    padded = np.concatenate([normals, np.zeros((1, 3))])
+    covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
+    seen = np.zeros(len(covered), dtype=bool)
+    for _ in range(_MOST_VIEWS):
+        new = target.visible & ~seen
+        gain = (new & covered).sum(axis=1) - (new & ~covered).sum(axis=1).astype(float)
+        best = int(np.argmax(gain))
+        if gain[best] <= 0.02 * len(covered):
+            break
+        seen |= target.visible[best]
+    missing = float((seen & ~covered).sum()) / max(float(covered.sum()), 1.0)
+    return float(covered.mean()), missing if seen.any() else 1.0
