@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from .face import FaceGeometry
 from .footpoints import surface_coordinates
-from .raster import Raster, dot, make_raster
+from .normals import facing, scan_normals
+from .raster import Raster, make_raster
 from .splines import Array
 from .start import dense_layers
 
@@ -22,9 +22,6 @@ LEAST_COVERAGE = 0.5
 _LEAST_POINTS = 30
 _SAMPLE = 40000
 _CELLS = 1024
-_NEIGHBOURS = 12
-_ALIKE = 0.6
-"""Cosine of the angle between a point's normal and its face's from which they face the same way."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +72,7 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
     """
     if len(scan) > _SAMPLE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE, replace=False)]
-    normals = _normals(scan)
+    normals = scan_normals(scan)
     found = {number: _candidate(face, scan, normals, reach) for number, face in enumerate(faces)}
     candidates = {number: candidate for number, candidate in found.items() if candidate is not None}
     while candidates:
@@ -92,8 +89,7 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _Candidate | None:
     raster = make_raster(face, _CELLS)
     points = surface_coordinates(raster, scan, reach).on_face(raster, 0.0)
-    alike = np.abs(dot(raster.normal[points.in_cell[0]], normals[points.index])) > _ALIKE
-    points = points.part(np.flatnonzero(alike))
+    points = points.part(np.flatnonzero(facing(raster, points, normals[points.index])))
     if len(points.x) < _LEAST_POINTS:
         return None
     layers = dense_layers(raster, points)
@@ -114,11 +110,3 @@ def _owned(candidates: dict[int, _Candidate], count: int) -> dict[int, NDArray[n
         point = candidate.point[nearer]
         nearest[point], owner[point] = candidate.distance[nearer], number
     return {number: owner[candidate.point] == number for number, candidate in candidates.items()}
-
-
-def _normals(points: Array) -> Array:
-    """Unit normals of the scan, their sign unknown, from the plane through each point's neighbours; (n, 3)."""
-    count = min(_NEIGHBOURS, len(points))
-    neighbours = points[cKDTree(points).query(points, count)[1].reshape(len(points), count)]
-    neighbours = neighbours - neighbours.mean(axis=1, keepdims=True)
-    return np.asarray(np.linalg.eigh(neighbours.transpose(0, 2, 1) @ neighbours)[1][:, :, 0])

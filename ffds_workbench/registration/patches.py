@@ -53,6 +53,7 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
     dx = raster.nearest_turn(layers.x[a] - layers.x[b], 0) * raster.size[0]
     dy = raster.nearest_turn(layers.y[a] - layers.y[b], 1) * raster.size[1]
     step = np.hypot(dx, dy)
+    residual = np.nan_to_num(residual, posinf=1e9)
     joined = np.abs(residual[a] - residual[b]) <= _SLOPE * step + _NOISE * layers.noise
     graph = coo_matrix((np.ones(np.count_nonzero(joined)), (a[joined], b[joined])), shape=(len(block), len(block)))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)

@@ -18,6 +18,7 @@ from .control_lattice import displacement_lattice
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, surface_coordinates
 from .lattice_size import automatic_lattice, coarse_lattice
+from .normals import facing, scan_normals
 from .patches import main_patches, patches, proven
 from .raster import Raster, make_raster
 from .raster_fit import RasterFit, RobustSettings
@@ -26,6 +27,8 @@ from .splines import Array
 from .start import dense_layers, rigid_start
 
 _FEWEST_POINTS = 30
+_MANY_WALLS, _MOST_NORMALS = 0.1, 50000
+"""Where more than a tenth of the layers are walls across the face, points are asked which way they face, up to so many."""
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
@@ -49,10 +52,14 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     points = surface_coordinates(raster, scan, settings.reach).on_face(raster, margin)
     _check_points(face, points, settings)
     layers = dense_layers(raster, points.sample(settings.sample))
+    if np.mean(~layers.thin) > _MANY_WALLS and len(points.x) <= _MOST_NORMALS:
+        points = points.part(np.flatnonzero(facing(raster, points, scan_normals(scan[points.index]))))
+        _check_points(face, points, settings)
+        layers = dense_layers(raster, points.sample(settings.sample))
     layers = replace(layers, density=layers.density * max(1.0, len(points.x) / settings.sample))
     size = lattice or coarse_lattice(raster, layers, settings.stiffness)
     fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
-    _check_lattice(face, fit, points)
+    _check_lattice(face, fit, points, lattice is None)
     state = fit.moved(rigid_start(raster, layers))
     for stiffness, gate in settings.stiff:
         state = fit.step(state, layers, layers.noise, stiffness, gate)
@@ -83,10 +90,14 @@ def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: Robu
             f"face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
 
 
-def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates) -> None:
+def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates, automatic: bool) -> None:
     occupied = np.count_nonzero(np.bincount(points.in_cell[0]))
-    if fit.lattice.free > occupied:
-        rows, columns = fit.lattice.unknown.shape
-        raise RefusedError(
-            f"The lattice {rows}x{columns} is too fine for {face.name}: its {fit.lattice.free} control points are not "
-            f"determined by the {occupied} raster cells that hold scan points; choose a smaller lattice.")
+    if fit.lattice.free <= occupied:
+        return
+    if automatic:
+        raise RefusedError(f"The scan shows too little of {face.name}: its {len(points.x)} points lie in {occupied} places, "
+                           f"and at least {fit.lattice.free} are needed; leave the face out or scan it from another side.")
+    rows, columns = fit.lattice.unknown.shape
+    raise RefusedError(
+        f"The lattice {rows}x{columns} is too fine for {face.name}: its {fit.lattice.free} control points are not "
+        f"determined by the {occupied} raster cells that hold scan points; choose a smaller lattice.")
