@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The certificate against shapes whose flaws are known because they were put there."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import FreeCAD
+import Part
+import pytest
+
+from ffds_workbench.errors import RefusedError
+from ffds_workbench.report.certificate import Certificate, boolean_checks, certify, condition, max_edge_gap
+
+SHIFT = 0.0125
+
+
+def box_with_shifted_edge() -> Part.Shape:
+    """A box whose edge curve along z through the origin stands SHIFT mm off its faces and vertices."""
+    text = Part.makeBox(10, 20, 30).exportBrepToString()
+    line = "\n1 0 0 0 0 0 1 \n"
+    assert text.count(line) == 1
+    shape = Part.Shape()
+    shape.importBrepFromString(text.replace(line, f"\n1 {SHIFT} 0 0 0 0 1 \n"))
+    return shape
+
+
+def test_a_clean_box_is_clean():
+    box = Part.makeBox(10, 20, 30)
+    certificate = certify(box, box.copy())
+    assert certificate.problems() == []
+    certificate.enforce()
+    counts = {"solids": 1, "shells": 1, "faces": 6, "wires": 6, "edges": 12, "vertices": 8}
+    assert certificate.as_dict() == {
+        "before": counts, "after": counts, "order_kept": True, "valid": True, "closed": True,
+        "max_edge_gap": {"before": pytest.approx(0, abs=1e-12), "after": pytest.approx(0, abs=1e-12)},
+        "max_tolerance": {"before": 1e-7, "after": 1e-7}, "boolean_check": {"before": 0, "after": 0}}
+
+
+def filleted_box() -> Part.Shape:
+    box = Part.makeBox(9, 9, 9)
+    return box.makeFillet(2, box.Edges)
+
+
+@pytest.mark.parametrize("shape", [Part.makeCylinder(5, 10), Part.makeSphere(7), Part.makeCone(5, 0, 9),
+                                   Part.makeTorus(9, 2), filleted_box()],
+                         ids=["cylinder", "sphere", "cone", "torus", "filleted box"])
+def test_analytic_shapes_have_no_gap(shape):
+    """Rounding of coordinates of about 10 mm is 1e-15; OCCT's fillets are exact to 1e-12."""
+    placed = shape.copy()
+    placed.Placement = FreeCAD.Placement(FreeCAD.Vector(100, -50, 30), FreeCAD.Rotation(FreeCAD.Vector(1, 2, 3), 40))
+    assert max_edge_gap(placed) < 1e-11
+
+
+def test_a_known_gap_is_found():
+    assert max_edge_gap(box_with_shifted_edge()) == pytest.approx(SHIFT, abs=1e-9)
+
+
+def test_a_grown_gap_is_a_problem_beyond_the_nominals_own():
+    box, shifted = Part.makeBox(10, 20, 30), box_with_shifted_edge()
+    grown = certify(box, shifted, boolean_limit=None)
+    assert any("gap" in sentence for sentence in grown.problems())
+    assert grown.excess_gap == pytest.approx(SHIFT, abs=1e-9)
+    assert certify(shifted, shifted, boolean_limit=None).excess_gap == 0
+
+
+def test_a_grown_tolerance_is_a_problem():
+    box, loose = Part.makeBox(10, 20, 30), Part.makeBox(10, 20, 30)
+    loose.fixTolerance(0.01)
+    assert [s for s in certify(box, loose, None).problems() if "tolerance" in s]
+    assert not certify(loose, loose, None).problems()
+
+
+def test_lost_faces_are_refused():
+    box = Part.makeBox(10, 20, 30)
+    with pytest.raises(RefusedError, match="faces changed from 7 to 6"):
+        certify(box.makeFillet(1, box.Edges[:1]), box, None).enforce()
+
+
+def test_changed_order_is_refused():
+    box, cylinder = Part.makeBox(10, 10, 10), Part.makeCylinder(3, 9, FreeCAD.Vector(30, 0, 0))
+    certificate = certify(Part.makeCompound([box, cylinder]), Part.makeCompound([cylinder, box]), None)
+    assert certificate.as_dict()["order_kept"] is False
+    with pytest.raises(RefusedError, match="order"):
+        certificate.enforce()
+
+
+def test_opened_and_invalid_shapes_are_refused():
+    sound = condition(Part.makeBox(10, 20, 30))
+    for spoiled, word in ((replace(sound, closed_shells=(False,)), "closed"), (replace(sound, valid=False), "valid")):
+        with pytest.raises(RefusedError, match=word):
+            Certificate(sound, spoiled).enforce()
+    Certificate(replace(sound, closed_shells=(False,)), sound).enforce()
+
+
+def test_boolean_check_counts_and_gives_up():
+    """Two boxes that overlap intersect themselves; a check that may take no time does not finish."""
+    overlapping = Part.makeCompound([Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, FreeCAD.Vector(5, 5, 5))])
+    clean, bad = boolean_checks((Part.makeBox(1, 1, 1), overlapping), 30)
+    assert clean == 0
+    assert bad > 0
+    assert boolean_checks((overlapping,), 0.0) == (None,)
+
+
+def test_more_boolean_errors_are_a_problem():
+    sound = condition(Part.makeBox(10, 20, 30), 0)
+    assert Certificate(sound, replace(sound, boolean_check=2)).problems()
+    assert not Certificate(replace(sound, boolean_check=2), sound).problems()
+    assert not Certificate(sound, replace(sound, boolean_check=None)).problems()
