@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""``./ffds benchmark scaling``: time and memory over scan points, lattice sizes and faces."""
+from __future__ import annotations
+
+import time
+import tracemalloc
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import FreeCAD  # noqa: F401  (Part needs it first)
+import numpy as np
+import Part
+from scipy.spatial import cKDTree
+
+from .. import api
+from ..errors import RefusedError
+from ..registration.ffd import register_ffd
+from ..registration.ffds import register_ffds
+from ..registration.robust import register_robust
+from ..registration.splines import Array
+from . import page, style
+from .interleaved import median_seconds
+from .page import Picture, Section, Table
+from .paper_case import NOISE, SIZE, lifted, sheet
+
+Progress = Callable[[str], None]
+Row = dict[str, Any]
+
+POINTS = (10_000, 30_000, 100_000, 300_000, 1_000_000, 2_000_000, 5_000_000)
+LATTICES = (10, 14, 20, 30, 50, 70, 100)
+FACES = (1, 4, 16, 49, 100, 196)
+_LATTICE_POINTS = 100_000
+_LARGEST_VOLUME = 30
+_POINTS_PER_FACE = 2_000
+_TILE = 20.0
+_NAMES = {"ffds": "ffds, N = 10", "robust": "robust", "kdtree": "k-d tree build", "read": "reading the array"}
+
+
+def run(folder: Path, progress: Progress) -> str:
+    """Measure, and write ``scaling.json``, ``scaling.md``, ``scaling.html`` and pictures; returns the tables."""
+    points, lattices, faces = over_points(progress), over_lattices(progress), over_faces(progress)
+    further = further_point(points)
+    data = {"points": points, "lattices": lattices, "faces": faces, "ns_per_further_point": further,
+            "exponents": {"points": _exponents(points, "points", _NAMES),
+                          "lattices": _exponents(lattices, "control_points", ("ffds", "robust", "ffd_hsu")),
+                          "faces": _exponents(faces, "faces", ("register", "rebuild", "total"))}}
+    return page.write(folder, "scaling", "Scaling", _sections(folder, data), data)
+
+
+def cloud(count: int, seed: int = 1) -> Array:
+    """A scan of the deformed sheet with noise; (count, 3)."""
+    rng = np.random.default_rng(seed)
+    points = lifted(rng.uniform((0, 0), SIZE, (count, 2)))
+    points[:, 2] += rng.normal(0, NOISE, count)
+    return points
+
+
+def over_points(progress: Progress) -> list[Row]:
+    """Seconds and peak memory of the methods on one face over the number of scan points."""
+    face = sheet()
+    rows = []
+    for count in POINTS:
+        progress(f"Scaling: {count:,} points")
+        scan = cloud(count)
+        jobs = {"ffds": lambda: register_ffds(face, scan, (10, 10), 400), "robust": lambda: register_robust(face, scan),
+                "kdtree": lambda: cKDTree(scan), "read": lambda: scan.sum()}
+        seconds = median_seconds(jobs, 9 if count <= 300_000 else 5 if count <= 1_000_000 else 3)
+        memory = {f"{name}_mb": peak_megabytes(jobs[name]) for name in ("ffds", "robust")}
+        rows.append({"points": count, **seconds, **memory})
+    return rows
+
+
+def over_lattices(progress: Progress) -> list[Row]:
+    """Seconds over the lattice size, 100k points; four source points per control point where the method takes some."""
+    face, scan = sheet(), cloud(_LATTICE_POINTS)
+    rows = []
+    for n in LATTICES:
+        progress(f"Scaling: lattice {n} × {n}")
+        jobs: dict[str, Callable[[], Any]] = {"ffds": lambda: register_ffds(face, scan, (n, n), 4 * n * n),
+                                              "robust": lambda: register_robust(face, scan, (n, n))}
+        if n <= _LARGEST_VOLUME:
+            jobs["ffd_hsu"] = lambda: register_ffd(face, scan, (n, n), 4 * n * n)
+        row: Row = {"lattice": n, "control_points": n * n}
+        for name, job in jobs.items():
+            try:
+                row |= median_seconds({name: job}, 3)
+            except RefusedError as error:
+                row[f"{name}_refused"] = str(error)
+        rows.append(row)
+    return rows
+
+
+def over_faces(progress: Progress) -> list[Row]:
+    """Seconds of a whole registration, by stage, over the number of connected faces of a shell."""
+    rows = []
+    for count in FACES:
+        progress(f"Scaling: {count} faces")
+        shape, scan = tiles(round(np.sqrt(count)))
+        start = time.perf_counter()
+        timing = api.register(shape, scan).report["timing"]
+        rows.append({"faces": count, "points": len(scan), **timing, "total": time.perf_counter() - start})
+    return rows
+
+
+def tiles(side: int) -> tuple[Part.Shape, Array]:
+    """A flat shell of side × side square faces that share their edges, and a scan of it after a smooth warp."""
+    squares = [Part.makePlane(_TILE, _TILE, FreeCAD.Vector(i * _TILE, j * _TILE, 0))
+               for i in range(side) for j in range(side)]
+    shape = squares[0].fuse(squares[1:]).Shells[0] if side > 1 else squares[0]
+    rng = np.random.default_rng(side)
+    xy = rng.uniform(0, side * _TILE, (_POINTS_PER_FACE * side**2, 2))
+    z = 0.8 * np.sin(xy[:, 0] / 25) * np.cos(xy[:, 1] / 30) + rng.normal(0, NOISE, len(xy))
+    return shape, np.column_stack([xy, z])
+
+
+def peak_megabytes(job: Callable[[], Any]) -> float:
+    """Largest memory that the job allocates at a time, in MB, its input not counted."""
+    tracemalloc.start()
+    try:
+        job()
+        return tracemalloc.get_traced_memory()[1] / 1e6
+    finally:
+        tracemalloc.stop()
+
+
+def further_point(rows: Sequence[Row]) -> dict[str, dict[str, float]]:
+    """Nanoseconds per further point, from 100k to 1M and from 1M to 5M, and their ratio."""
+    at = {row["points"]: row for row in rows}
+    result = {}
+    for name in _NAMES:
+        first = (at[1_000_000][name] - at[100_000][name]) / 9e5 * 1e9
+        second = (at[5_000_000][name] - at[1_000_000][name]) / 4e6 * 1e9
+        result[name] = {"from_100k_to_1m": first, "from_1m_to_5m": second, "ratio": second / first}
+    return result
+
+
+def _exponents(rows: Sequence[Row], over: str, names: Any) -> dict[str, float]:
+    """Slope of log time over log size, fitted to the upper half of the sizes, where set-up no longer counts."""
+    result = {}
+    for name in names:
+        pairs = np.array([(row[over], row[name]) for row in rows if name in row])
+        upper = np.log(pairs[len(pairs) // 2 :])
+        if len(upper) > 1:
+            result[name] = float(np.polyfit(upper[:, 0], upper[:, 1], 1)[0])
+    return result
+
+
+def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
+    further, exponents = data["ns_per_further_point"], data["exponents"]
+    points = Table("One face over the number of scan points: ms, MB beyond the input, and ratios",
+                   ("points", *(f"{title}, ms" for title in _NAMES.values()), "ffds, MB", "robust, MB",
+                    "ffds ÷ k-d tree", "robust ÷ k-d tree", "robust ÷ reading"),
+                   [[f"{row['points']:,}", *(f"{1e3 * row[name]:.3g}" for name in _NAMES), f"{row['ffds_mb']:.0f}",
+                     f"{row['robust_mb']:.0f}", f"{row['ffds'] / row['kdtree']:.2f}",
+                     f"{row['robust'] / row['kdtree']:.2f}", f"{row['robust'] / row['read']:.0f}"]
+                    for row in data["points"]])
+    slope = Table("Nanoseconds per further point, and the fitted exponent",
+                  ("", "100k to 1M", "1M to 5M", "ratio", "exponent"),
+                  [[title, f"{further[name]['from_100k_to_1m']:.1f}", f"{further[name]['from_1m_to_5m']:.1f}",
+                    f"{further[name]['ratio']:.2f}", f"{exponents['points'][name]:.2f}"]
+                   for name, title in _NAMES.items()])
+    methods = {"ffds": "ffds", "robust": "robust", "ffd_hsu": "ffd-hsu, product form"}
+    lattice = Table("One face over the lattice, 100,000 points, ms", ("lattice", *methods.values()),
+                    [[f"{row['lattice']} × {row['lattice']}", *(_cell(row, name) for name in methods)]
+                     for row in data["lattices"]])
+    stages = [name for name in data["faces"][0] if name not in ("faces", "points", "total")]
+    faces = Table("Whole registration over connected faces, 2,000 points a face, seconds by stage",
+                  ("faces", *stages, "total", "total ÷ faces"),
+                  [[str(row["faces"]), *(f"{row.get(stage, 0):.2f}" for stage in stages), f"{row['total']:.2f}",
+                    f"{row['total'] / row['faces']:.3f}"] for row in data["faces"]])
+    return [Section("Over scan points", (), (Picture(_plot(folder, data["points"]), "Time on one face."),), (points, slope)),
+            Section("Over the lattice", ("Four source points per control point for ffds and ffd-hsu.",),
+                    tables=(lattice,)),
+            Section("Over faces", ("A flat shell of square faces that share their edges, scanned after a smooth warp; "
+                                   "reading, registration, rebuild and certificate.",), tables=(faces,))]
+
+
+def _cell(row: Row, name: str) -> str:
+    if f"{name}_refused" in row:
+        return "refused"
+    return f"{1e3 * row[name]:.3g}" if name in row else "–"
+
+
+def _plot(folder: Path, rows: Sequence[Row]) -> str:
+    drawing = style.figure(6.4, 4.4)
+    axes = drawing.subplots()
+    count = [row["points"] for row in rows]
+    for name, colour, line in (("kdtree", style.SOFT, "--"), ("robust", style.COLOURS["robust"], "-"),
+                               ("ffds", style.COLOURS["ffds"], "-"), ("read", style.INK, ":")):
+        axes.loglog(count, [1e3 * row[name] for row in rows], line, color=colour, marker="o", markersize=4,
+                    label=_NAMES[name])
+    axes.set(xlabel="scan points", ylabel="ms (median)", title="One face, time over scan points")
+    axes.legend()
+    return style.save(drawing, folder, "scaling_points")
