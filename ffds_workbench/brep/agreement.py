@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What edited faces agree on along their edges.
 
-Each face was registered by itself; where two of them meet, their displacements differ by noise or more. A scan shows how
-a face moves along its normal and hardly how it slides within itself. So along a shared edge, and at a vertex, every
+Each face was registered by itself; where two of them meet, their displacements differ by noise or more. A scan shows
+how a face moves along its normal and hardly how it slides within itself. So along a shared edge, and at a vertex, every
 edited face has its say along its own normal, and where no normal points the mean holds. Each face spreads its
 correction smoothly into its own interior.
 """
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..registration.splines import Array, SplineSurface
+from .cutoff import step
 from .radial import RadialField, interpolate
 from .samples import EdgeSamples, along_edge, join
 from .topology import edge_traces
@@ -127,7 +128,7 @@ def _along_edges(samples: EdgeSamples, sides: Mapping[int, Side]) -> Array:
 
 
 def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int) -> Array:
-    """What the faces at each of ``count`` places agree on: argmin over d of Σ (nᵀ(d − own))² + s |d − own|², (count, 3).
+    """What the faces at each place agree on: argmin over d of Σ (nᵀ(d − own))² + s |d − own|², (count, 3).
 
     Parameters
     ----------
@@ -142,7 +143,7 @@ def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int)
 
 
 def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mapping[int, Side], agreed: Array) -> None:
-    """Shift the agreed displacement along each edge, linearly, so that edges meet in their vertices; in place."""
+    """Shift the agreed displacement near the ends of each edge, so that edges meet in their vertices; in place."""
     ends = _ends(workpiece, samples)
     by_row = defaultdict(list)
     for row, vertex in ends:
@@ -163,9 +164,13 @@ def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mappin
     offsets = {row: at_vertex[vertex] - agreed[row] for row, vertex in ends}
     for edge in np.unique(samples.edges):
         rows = np.flatnonzero(samples.edges == edge)
-        weight = samples.fractions[rows][:, None]
-        first, last = offsets[rows[0]], offsets[rows[-1]]
-        agreed[rows] += (1.0 - weight) * first + weight * last
+        if len(rows) == 1:
+            agreed[rows] += offsets[rows[0]]
+            continue
+        along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(samples.points[rows], axis=0), axis=1)))
+        for end, distance in ((rows[0], along), (rows[-1], along[-1] - along)):
+            fade = min(along[-1], max(_GENTLE * float(np.linalg.norm(offsets[end])), _SPREAD * along[-1]))
+            agreed[rows] += (1.0 - step(distance / fade))[:, None] * offsets[end]
 
 
 def _ends(workpiece: Workpiece, samples: EdgeSamples) -> list[tuple[int, int]]:
