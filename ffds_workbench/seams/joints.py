@@ -18,6 +18,7 @@ from .chains import Stretch
 from .weldment import Weldment
 
 _SAMPLES = 33
+_COARSE = 4
 _ALONG = np.sin(np.deg2rad(20.0))
 _LEAST_OPENING = np.deg2rad(20.0)
 _FLAT = np.deg2rad(150.0)
@@ -96,6 +97,13 @@ def _runs(weldment: Weldment, edge: int, face: int, tolerance: float) -> list[_R
     if np.count_nonzero(close) < 2:
         return []
     on = np.zeros(_SAMPLES, dtype=bool)
+    coarse = np.flatnonzero(close & (np.arange(_SAMPLES) % _COARSE == 0))
+    distances = weldment.distances(face, curve.points[coarse])
+    # A distance from the face changes by no more than one walks: most points need no search.
+    apart = np.linalg.norm(curve.points[:, None] - curve.points[coarse], axis=2)
+    close &= (distances - apart).max(axis=1, initial=-np.inf) <= tolerance
+    if np.count_nonzero(close) < 2:
+        return []
     nearest = weldment.nearest((face,), curve.points[close])
     along = np.abs(np.einsum("ij,ij->i", curve.tangents[close], nearest.normals)) < _ALONG
     on[close] = (nearest.distances <= tolerance) & along
@@ -182,8 +190,8 @@ def _kind(weldment: Weldment, stretch: Stretch, free: int, contact: int, opening
     around = weldment.faces[free].Surface
     if around.isUClosed() or around.isVClosed():
         return "pipe"
-    largest = max(weldment.faces[face].Area for face in weldment.parts[weldment.part_of_face[contact]])
-    return "lap" if weldment.faces[contact].Area >= _LARGE * largest else "T"
+    largest = max(weldment.areas[face] for face in weldment.parts[weldment.part_of_face[contact]])
+    return "lap" if weldment.areas[contact] >= _LARGE * largest else "T"
 
 
 def _length(weldment: Weldment, stretch: Stretch) -> float:

@@ -151,6 +151,16 @@ class Weldment:
                                            for name in ("points", "normals", "faces"))
         return NearestPoints(points_of, normals_of, distances[best, row], faces_of)
 
+    def distances(self, face: int, points: Array) -> Array:
+        """Distances in mm of points (n, 3) from a (trimmed) face, (n,)."""
+        surface = self.faces[face]
+        return np.array([Part.Vertex(*point).distToShape(surface)[0] for point in points.tolist()])
+
+    @cached_property
+    def areas(self) -> tuple[float, ...]:
+        """Of all faces in mm²."""
+        return tuple(face.Area for face in self.faces)
+
     def _nearest_on(self, face: int, points: Array) -> NearestPoints:
         surface = self.faces[face]
         closest, normals, distances = [], [], []
