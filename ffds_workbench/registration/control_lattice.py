@@ -40,6 +40,11 @@ class ControlLattice:
     periodic_v: bool
 
     @property
+    def size(self) -> tuple[int, int]:
+        """(N_i, N_j), control points in u and v; repeated ones of a periodic direction do not count."""
+        return (len(self.fold_u) - DEGREE * self.periodic_u, len(self.fold_v) - DEGREE * self.periodic_v)
+
+    @property
     def free(self) -> int:
         """Number of free control points."""
         return int(self.unknown.max()) + 1

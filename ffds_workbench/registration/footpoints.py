@@ -65,10 +65,6 @@ class SurfaceCoordinates:
         depth = raster.depth[cell] + slope_x[cell] * dx + slope_y[cell] * dy
         return self.part(np.flatnonzero(depth >= margin))
 
-    def outside(self, cells: NDArray[np.bool_]) -> SurfaceCoordinates:
-        """Those that do not lie in cells of the given mask (m·n,)."""
-        return self.part(np.flatnonzero(~cells[self.in_cell[0]])) if cells.any() else self
-
     def sample(self, most: int) -> SurfaceCoordinates:
         """At most ``most`` of them, drawn at random but always the same."""
         if len(self.x) <= most:

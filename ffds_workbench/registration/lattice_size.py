@@ -6,15 +6,19 @@ for: finer ones follow noise, coarser ones leave out what is there.
 """
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .control_lattice import ControlLattice, displacement_lattice, folded, periodic_knots
 from .normal_equations import LEAST_NOISE
 from .raster import Raster
 from .splines import DEGREE, Array, SplineSurface, basis_matrix, clamped_knots
 from .start import Layers
+
+Index = NDArray[np.intp]
 
 _SPAN_IN_LENGTHS = 4.0
 _COARSE_SPANS = 7
@@ -55,11 +59,12 @@ def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, we
     stiffness : weight of the bending energy in chi-square units
     """
     finest = _finest(raster, layers, stiffness)
+    sample = _folds(raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2)
     scores: list[float] = []
     sizes: list[tuple[int, int]] = []
     for spans in [s for s in _SPANS if s <= finest] or [_SPANS[0]]:
         sizes.append(_size(raster, spans))
-        scores.append(_held_out(surface, raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2, sizes[-1], stiffness))
+        scores.append(_held_out(displacement_lattice(surface, sizes[-1]), raster, sample, stiffness))
         if spans >= _ALWAYS and len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
             break
     good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _TOLERANCE))
@@ -87,26 +92,40 @@ def _size(raster: Raster, spans: float) -> tuple[int, int]:
     return size[0], size[1]
 
 
-def _held_out(surface: SplineSurface, raster: Raster, layers: Layers, data: Array, size: tuple[int, int],
-              stiffness: float) -> float:
-    """Mean squared residual of held-out layers, with a field of heights fitted to the others."""
-    lattice = displacement_lattice(surface, size)
-    u, v = raster.corner[0] + raster.step[0] * layers.x, raster.corner[1] + raster.step[1] * layers.y
-    rows = (lattice.basis_u(u)[:, :, None] * lattice.basis_v(v)[:, None]).reshape(len(u), -1)
-    rows *= np.sqrt(data)[:, None]
-    heights = np.sqrt(data) * layers.height
+@dataclass(frozen=True)
+class _Sample:
+    """Layers with weight, fold by fold: parameters u and v, heights, their weights; where the folds start and end."""
+
+    u: Array
+    v: Array
+    height: Array
+    weight: Array
+    edges: Index
+
+
+def _folds(raster: Raster, layers: Layers, weights: Array) -> _Sample:
+    """Squares of the face, dealt out to the folds so that no two neighbours are in the same."""
     edge = np.maximum(_HELD_OUT_BLOCKS * layers.block, _HELD_OUT_SHARE * max(_lengths(raster)) / raster.size)
     fold = ((layers.x // edge[0]).astype(int) + 2 * (layers.y // edge[1]).astype(int)) % _FOLDS
-    parts = [(part, part.T @ part, part.T @ y, y) for part, y in
-             ((rows[fold == k], heights[fold == k]) for k in range(_FOLDS))]
-    matrix, right = sum(p[1] for p in parts), sum(p[2] for p in parts)
-    matrix = matrix + stiffness * _flat_bending(raster, lattice)
+    rows = np.argsort(np.where(weights > 0, fold, _FOLDS), kind="stable")[: np.count_nonzero(weights > 0)]
+    u, v = raster.corner[:, None] + raster.step[:, None] * np.stack([layers.x[rows], layers.y[rows]])
+    return _Sample(u, v, layers.height[rows], weights[rows], np.searchsorted(fold[rows], np.arange(_FOLDS + 1)))
+
+
+def _held_out(lattice: ControlLattice, raster: Raster, sample: _Sample, stiffness: float) -> float:
+    """Mean squared residual of the folds, each predicted by a field of heights fitted to the others."""
+    root = np.sqrt(sample.weight)
+    rows = ((lattice.basis_u(sample.u) * root[:, None])[:, :, None] * lattice.basis_v(sample.v)[:, None])
+    rows, heights = rows.reshape(len(root), -1), root * sample.height
+    parts = [(part, y, part.T @ part, part.T @ y) for part, y in
+             ((rows[a:b], heights[a:b]) for a, b in zip(sample.edges[:-1], sample.edges[1:], strict=True))]
+    matrix = sum((p[2] for p in parts), start=stiffness * _flat_bending(raster, lattice))
+    right = sum(p[3] for p in parts)
     matrix[np.diag_indices_from(matrix)] += 1e-9 * np.trace(matrix) / len(matrix) + 1e-9
     squared = 0.0
-    for part, gram, moment, y in parts:
-        points = np.linalg.solve(matrix - gram, right - moment)
-        squared += float(np.sum((y - part @ points) ** 2))
-    return squared / max(float(data.sum()), 1e-300)
+    for part, y, gram, moment in parts:
+        squared += float(np.sum((y - part @ np.linalg.solve(matrix - gram, right - moment)) ** 2))
+    return squared / max(float(sample.weight.sum()), 1e-300)
 
 
 def _flat_bending(raster: Raster, lattice: ControlLattice) -> Array:

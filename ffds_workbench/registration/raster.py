@@ -179,11 +179,14 @@ def _principal(s_u: Array, s_v: Array, normal: Array, second: tuple[Array, Array
     return c[:, None] * e1 + s[:, None] * e2, c[:, None] * e2 - s[:, None] * e1, curvature
 
 
-def frames(surface: SplineSurface, u: Array, v: Array) -> list[Array]:
-    """S, S_u, S_v, S_uu, S_uv, S_vv on the grid u × v, each (len(u)·len(v), 3)."""
-    bases_u = [basis_matrix(surface.knots_u, u, surface.degree_u, k) for k in range(3)]
-    bases_v = [basis_matrix(surface.knots_v, v, surface.degree_v, k) for k in range(3)]
-    orders = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+_ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+
+
+def frames(surface: SplineSurface, u: Array, v: Array, order: int = 2) -> list[Array]:
+    """S, S_u, S_v, and for ``order`` 2 also S_uu, S_uv, S_vv, on the grid u × v, each (len(u)·len(v), 3)."""
+    bases_u = [basis_matrix(surface.knots_u, u, surface.degree_u, k) for k in range(order + 1)]
+    bases_v = [basis_matrix(surface.knots_v, v, surface.degree_v, k) for k in range(order + 1)]
+    orders = [(a, b) for a, b in _ORDERS if a + b <= order]
     return [tensor_product(bases_u[a], bases_v[b], surface.control_points).reshape(-1, 3) for a, b in orders]
 
 
@@ -204,7 +207,7 @@ def dot(a: Array, b: Array) -> Array:
 def _shape(surface: SplineSurface, cells: int) -> tuple[int, int]:
     u0, u1, v0, v1 = surface.range
     u, v = np.linspace(u0, u1, 34), np.linspace(v0, v1, 34)
-    points, s_u, s_v = (f.reshape(34, 34, 3) for f in frames(surface, u, v)[:3])
+    points, s_u, s_v = (f.reshape(34, 34, 3) for f in frames(surface, u, v, 1))
     normal = np.cross(s_u, s_v)[1:-1, 1:-1]
     normal /= np.maximum(np.linalg.norm(normal, axis=2, keepdims=True), np.finfo(float).tiny)
     lengths = [np.linalg.norm(np.diff(points, axis=k), axis=2).sum(axis=k).mean() for k in (0, 1)]

@@ -43,8 +43,8 @@ class RobustSettings:
     gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
     stiff : bending multiplier and gate in mm of the first steps, on all layers of the scan
     soft : the same for the next ones, on the layers that hang together
-    final : the same for the last ones, on the points
-    sample : number of scan points that the early steps look at
+    final : the same for the last ones, on points instead of layers
+    sample : number of scan points that all steps but the last look at
     """
 
     reach: float = 10.0
@@ -55,7 +55,7 @@ class RobustSettings:
     stiff: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0))
     soft: tuple[tuple[float, float], ...] = ((1e2, 1.5), (30, 1.2), (10, 1.0))
     final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
-    sample: int = 20000
+    sample: int = 12000
 
     @property
     def stiffness(self) -> float:
@@ -101,10 +101,12 @@ class _Graph:
 
 
 class RasterFit:
-    """Fits displacements of one control lattice on one raster."""
+    """Fits displacements of one control lattice on one raster; data in ``ignored`` cells, (m·n,), are left out."""
 
     def __init__(self, face: FaceGeometry, raster: Raster, lattice: ControlLattice, settings: RobustSettings) -> None:
+        self.ignored = np.zeros(len(raster.inside), dtype=bool)
         self.raster, self.lattice, self.settings = raster, lattice, settings
+        self.size = lattice.size
         self.directions = raster.normal[:1] if raster.flat else np.eye(3)
         self.layout = normal_matrix(lattice, len(self.directions))
         self.bending, self.gauge = bending_and_gauge(face.surface, lattice, self.layout)
@@ -135,7 +137,7 @@ class RasterFit:
         graph = self._graph(state)
         cell, residual, weight = self._weighed(graph, data, max(gate, _NOISE_CUT * noise))
         cells = len(self.raster.inside)
-        total = np.bincount(cell, weight, cells)
+        total = np.where(self.ignored, 0.0, np.bincount(cell, weight, cells))
         residual[weight == 0] = 0
         mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
         some = slice(None, None, max(1, len(residual) // self.settings.sample))
@@ -145,7 +147,8 @@ class RasterFit:
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
         control_points = self._solve(row, target, certainty, stiffness)
-        return self._state(control_points, total, int(np.count_nonzero(weight)), new_noise)
+        points = np.bincount(cell, weight > 0, cells)[~self.ignored].sum()
+        return self._state(control_points, total, int(points), new_noise)
 
     def look(self, state: State, layers: Layers, gate: float) -> tuple[Array, Array]:
         """Heights of layers over the surface of a state, and their weights about it."""
@@ -166,7 +169,8 @@ class RasterFit:
             return _Graph(none, none, height, slope_x, slope_y, raster.normal, one, one > 0)
         m, n = raster.shape
         cells = np.arange(m * n)
-        x, y, height, valid = newton_in_cells(raster, (raster.position + state.d).T, cells)
+        steps = 1 if np.abs(state.d).max() < raster.size.min() else 2
+        x, y, height, valid = newton_in_cells(raster, (raster.position + state.d).T, cells, steps)
         i, j = np.divmod(cells, n)
         shift_x, shift_y = raster.nearest_turn(x - i - 0.5, 0), raster.nearest_turn(y - j - 0.5, 1)
         (xx, xy), (yx, yy), (hx, hy) = (raster.gradient(f) for f in (shift_x, shift_y, height))

@@ -70,14 +70,15 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         state = fit.step(state, layers.part(trusted), layers.noise, stiffness, gate)
     residual, weights = fit.look(state, layers, gate)
     believed = proven(raster, layers, label, trusted, residual, settings.final[-1][1] + layers.noise, settings.curvature)
-    points = points.outside(layers.part(~believed).cells() & ~layers.part(believed).cells())
+    ignored = layers.part(~believed).cells() & ~layers.part(believed).cells()
     if lattice is None:
-        best = automatic_lattice(face.surface, raster, layers, weights * believed, settings.stiffness)
-        if best != size:
-            fit = RasterFit(face, raster, displacement_lattice(face.surface, best), settings)
+        size = automatic_lattice(face.surface, raster, layers, weights * believed, settings.stiffness)
+    if size != fit.size:
+        fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
+    fit.ignored = ignored
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
-        some = points.sample(settings.sample) if k == 0 else points
+        some = points if k == len(settings.final) - 1 else points.sample(settings.sample)
         state = fit.step(state, some, noise, stiffness, gate)
         noise = state.noise
     return FaceRegistration(face.name, fit.field(state), state.points, covered_share(raster, state.weights), state.noise)
