@@ -30,6 +30,7 @@ _FLOOR = 0.05
 """Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
 _HUBER = 2.0
 _DISCARD = 3.0
+_MOST_POINTS = 250_000
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,8 @@ def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places, distance: 
 
 
 def near_edges(points: Array, edges: EdgeSamples, control_points: Array) -> Array:
-    """The scan points, (n, 3), that lie near any edge and are worth looking at."""
+    """The scan points (at most some 250 000, evenly taken) that lie near any edge of the current shape: (n, 3)."""
+    points = points[:: 1 + len(points) // _MOST_POINTS]
     if not len(edges.edge):
         return points[:0]
     place = edges.first.nominal[0] + edges.first.displacement(control_points)
@@ -95,9 +97,13 @@ def near_edges(points: Array, edges: EdgeSamples, control_points: Array) -> Arra
 
 
 def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
-    """Visible borders at the current shape, from points near the edges (`near_edges`)."""
+    """Visible borders at the current shape, from points (n, 3) near the edges (`near_edges`)."""
+    place = edges.first.nominal[0] + edges.first.displacement(control_points)
+    row = cKDTree(place).query(points, distance_upper_bound=_REACH, workers=-1)[1] if len(place) else np.zeros(0, int)
+    near = np.flatnonzero(row < len(place))
+    points, row = points[near], row[near]
     pairs = (edges.first, edges.second), (edges.second, edges.first)
-    found = [_one_side(points, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
+    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
              for k, (seen, other) in enumerate(pairs)]
     rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
     samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
@@ -105,7 +111,7 @@ def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_po
     return Borders(samples, direction, offset, weight)
 
 
-def _one_side(points: Array, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array, sharp: NDArray[np.bool_],
+def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array, sharp: NDArray[np.bool_],
               control_points: Array, noise: float) -> tuple[Array, Array, Array]:
     """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
     count = len(edges.edge)
@@ -115,10 +121,7 @@ def _one_side(points: Array, edges: EdgeSamples, seen: Samples, other: Samples, 
     nothing = out, np.zeros(count), np.zeros(count)
     if not sharp.any() or not len(points):
         return nothing
-    near = cKDTree(place).query(points, distance_upper_bound=_REACH, workers=-1)[1]
-    point = np.flatnonzero(near < count)
-    row = near[point]
-    local = points[point] - place[row]
+    local = points - place[row]
     across = np.einsum("nx,nx->n", local, out[row])
     on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * noise
     on_other = ((np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise)

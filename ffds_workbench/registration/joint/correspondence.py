@@ -49,11 +49,13 @@ class Correspondence:
     point : (n,) index of the scan point
     cell : (n,) flat number of its cell
     height : (n,) signed distance from the surface along its outward normal, in mm
+    nearest : (points,) row of the nearest frame for every scan point asked for, used again while the shape hardly moves
     """
 
     point: Index
     cell: Index
     height: Array
+    nearest: Index
 
 
 def make_frames(lattices: Lattices, cells: Places, jet: Jet, margin: Array, distance: Array) -> Frames:
@@ -75,12 +77,13 @@ def make_frames(lattices: Lattices, cells: Places, jet: Jet, margin: Array, dist
                   distance[span, place] > margin[span])
 
 
-def correspond(points: Array, frames: Frames, gate: float) -> Correspondence:
-    """Match points (n, 3) to cells within ``gate`` mm."""
-    tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
-    near = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
-    point = np.flatnonzero(near < len(frames.position))
-    row = near[point]
+def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None) -> Correspondence:
+    """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since."""
+    if nearest is None:
+        tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
+        nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
+    point = np.flatnonzero(nearest < len(frames.position))
+    row = nearest[point]
     offset = points[point] - frames.position[row]
     step = np.einsum("nax,nx->na", frames.step[row], offset)
     bend = frames.form[row]
@@ -88,7 +91,7 @@ def correspond(points: Array, frames: Frames, gate: float) -> Correspondence:
     height = np.einsum("nx,nx->n", frames.normal[row], offset) - sag
     good = (frames.allowed[row] & (np.abs(height) < gate)
             & (np.abs(step) < _WITHIN_CELL * frames.size[row]).all(axis=1))
-    return Correspondence(point[good], frames.cell[row[good]], height[good])
+    return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
 
 
 def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:

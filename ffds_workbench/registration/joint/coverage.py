@@ -11,7 +11,6 @@ from scipy.spatial import cKDTree
 from ..splines import Array
 from .lattice import Index
 from .problem import Problem
-from .samples import Samples
 from .values import CellValues
 
 OBSERVED, BRIDGED, CARRIED = "observed", "bridged", "carried"
@@ -44,14 +43,14 @@ class Coverage:
         seen = self.share[face] >= _SEEN_FACE
         return np.where(seen & (gap <= near), OBSERVED, np.where(seen, BRIDGED, CARRIED))
 
-    def gap_of(self, samples: Samples) -> Array:
-        """Distance of nominal places from the nearest observed cell of their face: (n,)."""
-        gap = np.full(len(samples), np.inf)
-        for face in np.unique(samples.face):
-            tree = self.trees[face]
+    def gap_of(self, face: Index, position: Array) -> Array:
+        """Distance of nominal places (n, 3) on faces (n,) from the nearest observed cell of their face: (n,)."""
+        gap = np.full(len(face), np.inf)
+        for index in np.unique(face):
+            tree = self.trees[index]
             if tree is not None:
-                rows = np.flatnonzero(samples.face == face)
-                gap[rows] = tree.query(samples.nominal[0, rows])[0]
+                rows = np.flatnonzero(face == index)
+                gap[rows] = tree.query(position[rows])[0]
         return gap
 
     def edge_near(self, margin: float) -> float:

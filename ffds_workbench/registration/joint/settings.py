@@ -96,7 +96,7 @@ class JointSettings:
     thickness_sigma: float = 0.02
     thickness_sigma_soft: float = 0.1
     edge_sigma: float = 1e-3
-    dihedral_sigma: float = 0.02
+    dihedral_sigma: float = 0.01
     pose_sigma: float = 1.0
     schedule: tuple[Stage, ...] = SCHEDULE
     sensor: SensorProfile = field(default_factory=SensorProfile)

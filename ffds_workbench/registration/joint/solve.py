@@ -29,6 +29,8 @@ from .system import solve
 from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
+_HARDLY_MOVES = 0.1
+"""Movement in mm after which points keep their cells: a small share of a cell."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -70,10 +72,10 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    state = judge_stretch(problem, state, stage)
-    if stage.soft and state.near is None:
-        edges = problem.couplings.edges
-        state = replace(state, near=near_edges(problem.scan, edges, state.control_points))
+    state = replace(judge_stretch(problem, state, stage), nearest=None)
+    if stage.soft:
+        near = near_edges(problem.scan, problem.couplings.edges, state.control_points)
+        state = replace(state, near=near, factor=None if stage.all_points else state.factor)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, state)
         if state.last_step < stage.enough:
@@ -86,7 +88,8 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     points = problem.scan if stage.all_points else problem.sample
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    found = correspond(points, frames, max(stage.gate, 4 * problem.statistics.noise))
+    gate = max(stage.gate, 4 * problem.statistics.noise)
+    found = correspond(points, frames, gate, state.nearest if state.last_step < _HARDLY_MOVES else None)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     cell_values = tukey_means if stage.all_points else medians
@@ -103,6 +106,6 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor, values=values, noise=values.noise,
-                   equations=equations, last_step=last_step, iterations=state.iterations + 1)
+                   nearest=found.nearest, last_step=last_step, iterations=state.iterations + 1)
 
 

@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..splines import Array
-from .assembly import NormalEquations
 from .cholesky import FrontCholesky
+from .lattice import Index
 from .problem import Problem
 from .values import CellValues
 
@@ -33,8 +33,9 @@ class State:
     thickness : multiplies the weight of the sheets' thickness
     strain : rms strain found on observed faces
     near : scan points near the edges, once they are needed
-    factor : of an earlier normal matrix
-    values, equations : of the last iteration
+    nearest : nearest cells of the scan points of this stage, while the shape hardly moves
+    factor : of an earlier normal matrix; after the last stage of one with all data
+    values : of the last iteration
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
     """
@@ -46,9 +47,9 @@ class State:
     thickness: float = 1.0
     strain: float = 0.0
     near: Array | None = None
+    nearest: Index | None = None
     factor: FrontCholesky | None = None
     values: CellValues | None = None
-    equations: NormalEquations | None = None
     last_step: float = np.inf
     iterations: int = 0
 

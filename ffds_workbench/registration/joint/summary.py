@@ -7,14 +7,13 @@ import numpy as np
 from ...errors import RefusedError
 from ..splines import Array
 from .bands import edge_bands, normal_bands
-from .cholesky import FrontCholesky
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
 from .isometry import is_isometric
 from .lattice import Index
 from .problem import Problem
 from .raster import normals
 from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidMotion
-from .samples import Samples, sample
+from .samples import sample
 from .sheet import parameters
 from .state import State
 
@@ -76,7 +75,7 @@ def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
-    inverse = FrontCholesky(problem.pattern.layout, state.equations.blocks).inverse_blocks()
+    inverse = state.factor.inverse_blocks()
     seen = coverage(problem, state.values)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     return JointRegistration(
@@ -103,8 +102,7 @@ def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
     span, place = np.nonzero(places.inside)
     face = lattices.face_of_span[span]
     uv = parameters(lattices, places, span, place)
-    gap_inside = seen.gap_of(Samples(face, np.zeros((len(span), 0), dtype=np.intp), np.zeros((3, len(span), 0)),
-                                     places.nominal.values[span, place, :3].swapaxes(0, 1), np.ones(len(span))))
+    gap_inside = seen.gap_of(face, places.nominal.position[span, place])
     gap = np.zeros(places.inside.shape)
     gap[span, place] = gap_inside
     bands = normal_bands(problem, inverse, places.tables[0], normal, gap)[span, place]
@@ -121,18 +119,17 @@ def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
 
 def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[EdgeRegistration, ...]:
     part, lattices = problem.part, problem.lattices
-    sides, number = [], []
-    for pick in (0, -1):
-        face = np.concatenate([np.full(len(edge.points), edge.faces[pick]) for edge in part.edges if edge.faces])
-        uv = np.concatenate([edge.uv[pick] for edge in part.edges if edge.faces])
-        sides.append(sample(part.faces, lattices, face, uv))
-        number = np.concatenate([np.full(len(e.points), k) for k, e in enumerate(part.edges) if e.faces])
-    points = sides[0].nominal[0] + sides[0].displacement(state.control_points)
+    edges = [edge for edge in part.edges if edge.faces]
+    number = np.concatenate([np.full(len(edge.points), k) for k, edge in enumerate(part.edges) if edge.faces])
+    nominal = np.concatenate([edge.points for edge in edges])
+    first, last = (np.concatenate([np.full(len(edge.points), edge.faces[k]) for edge in edges]) for k in (0, -1))
+    samples = sample(part.faces, lattices, first, np.concatenate([edge.uv[0] for edge in edges]))
+    points = samples.nominal[0] + samples.displacement(state.control_points)
     near = seen.edge_near(float(problem.margin.max()))
-    gaps = [seen.gap_of(side) for side in sides]
+    gaps = [seen.gap_of(face, nominal) for face in (first, last)]
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
-    flags = np.array(_better(seen.flags(gaps[0], sides[0].face, near), seen.flags(gaps[1], sides[1].face, near)))
-    bands = edge_bands(problem, inverse, sides[0], _directions(points, number), gap)
+    flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
+    bands = edge_bands(problem, inverse, samples, _directions(points, number), gap)
     result = []
     for index, edge in enumerate(part.edges):
         own = number == index
