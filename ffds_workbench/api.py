@@ -33,7 +33,6 @@ import FreeCAD  # noqa: E402, F401 (Part needs FreeCAD to be loaded first)
 import Part  # noqa: E402
 
 from .brep import files, workpiece  # noqa: E402
-from .brep.built import built_geometry  # noqa: E402
 from .brep.field import local_displacements  # noqa: E402
 from .brep.files import Model  # noqa: E402
 from .brep.rebuild import rebuild  # noqa: E402
@@ -48,7 +47,8 @@ from .registration.robust import register_robust  # noqa: E402
 from .report import picture as drawing  # noqa: E402
 from .report import record, table  # noqa: E402
 from .report.certificate import Certificate, boolean_checks, certify  # noqa: E402
-from .report.deviation import FaceDeviation, measure, measure_again, reach_of  # noqa: E402
+from .report.comparison import compare  # noqa: E402
+from .report.deviation import FaceDeviation, measure, reach_of  # noqa: E402
 from .report.stopwatch import Stopwatch  # noqa: E402
 from .scan import files as scan_files  # noqa: E402
 from .scan.cloud import PointCloud  # noqa: E402
@@ -74,7 +74,7 @@ BOOLEAN_CHECK_SECONDS = 4.0
 """How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
 without it: it can take minutes."""
 SURFACE_TOLERANCE = 1e-5
-"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement: far below any scan's noise."""
+"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
 _PAPER_LATTICE = (10, 10)
 
 
@@ -178,7 +178,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
             certificate = certify(nominal.shape, shape, None)
             certificate.enforce()
         with watch.stage("deviation", "Measuring the deviation"):
-            before, after = _compare(part, shape, list(registrations), cloud)
+            before, after = compare(part, shape, list(registrations), cloud.points)
         with watch.stage("certify", "Waiting for the check for Boolean operations"):
             certificate = _with_checks(certificate, *checks.result())
     moved = [part.faces[index].name for index in displacements]
@@ -361,37 +361,6 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
         published = register_ffds if method == "ffds" else register_ffd
         return published(face, cloud.points, _PAPER_LATTICE if lattice == "auto" else lattice, source_points)
     return register_robust(face, cloud.points, None if lattice == "auto" else lattice)
-
-
-def _compare(nominal: Workpiece, built: Part.Shape, indices: Sequence[int], cloud: PointCloud
-             ) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
-    """Deviations before and after of the points that lie on the as-built faces; the same points in both.
-
-    Faces around the registered ones take part in the contest for points, so that none is blamed for its neighbour's.
-    """
-    reach = reach_of(_diagonal(built))
-    faces = built.Faces
-    around = _faces_near(faces, indices, reach)
-    after = measure([built_geometry(nominal, index, faces[index]) for index in around], cloud.points, reach)
-    measured = dict(zip(around, after, strict=True))
-    pairs = []
-    for index in indices:
-        item = measured[index]
-        first = measure_again(nominal.geometry(index), cloud.points, item, 3.0 * reach)
-        same = np.isin(item.points, first.points)
-        pairs.append((first, replace(item, points=item.points[same], deviations=item.deviations[same],
-                                     normals=item.normals[same])))
-    return tuple(first for first, _ in pairs), tuple(second for _, second in pairs)
-
-
-def _faces_near(faces: Sequence[Part.Face], indices: Sequence[int], reach: float) -> list[int]:
-    """Faces whose boxes come within ``reach`` of those of the faces ``indices``, these included."""
-    boxes = [face.BoundBox for face in faces]
-    low = np.array([(box.XMin, box.YMin, box.ZMin) for box in boxes]) - reach
-    high = np.array([(box.XMax, box.YMax, box.ZMax) for box in boxes]) + reach
-    chosen = np.asarray(indices)
-    meet = (low[:, None] <= high[chosen]) & (high[:, None] >= low[chosen])
-    return np.flatnonzero(meet.all(axis=2).any(axis=1)).tolist()
 
 
 def _report(part: Workpiece, cloud: PointCloud, registrations: Sequence[FaceRegistration],

@@ -34,7 +34,7 @@ def _direction(points: Array, knots: list[float], multiplicities: list[int], deg
                ) -> tuple[Array, Array]:
     """Flat knots and control points (n, …) along the first axis.
 
-    OCCT lists one period of a periodic direction; its first pole belongs to the flat knots that end with the first knot.
+    OCCT lists one period of a periodic direction; its first pole belongs to flat knots that end with the first knot.
     """
     if not periodic:
         return np.repeat(knots, multiplicities), points

@@ -76,9 +76,9 @@ def test_progress_is_told(scan):
     assert told
 
 
-@pytest.mark.parametrize(("arguments", "message"), [({"method": "magic"}, "unknown"), ({"lattice": (3, 8)}, "4 or more"),
-                                                    ({"faces": []}, "No face"), ({"faces": ["Face9"]}, "no Face9"),
-                                                    ({"freeze": ["Face9"]}, "no Face9")])
+@pytest.mark.parametrize(("arguments", "message"), [
+    ({"method": "magic"}, "unknown"), ({"lattice": (3, 8)}, "4 or more"), ({"faces": []}, "No face"),
+    ({"faces": ["Face9"]}, "no Face9"), ({"freeze": ["Face9"]}, "no Face9")])
 def test_requests_that_cannot_be_read(scan, arguments, message):
     with pytest.raises(api.InputError, match=message):
         api.register(Part.makeBox(60, 40, 5), scan, **arguments)

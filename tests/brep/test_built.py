@@ -19,7 +19,7 @@ SHAPES = {"box": Part.makeBox(10, 20, 30), "cylinder": Part.makeCylinder(10, 20)
 def test_the_surface_is_occts(name):
     part = workpiece.read(SHAPES[name])
     wave = FaceDisplacement(lambda uv, points: 0.1 * np.sin(points / 5 + 0.3))
-    built = rebuild(part, {index: wave for index in range(len(part.faces))}, 1e-4)
+    built = rebuild(part, dict.fromkeys(range(len(part.faces)), wave), 1e-4)
     for index, face in enumerate(built.Faces):
         surface = built_geometry(part, index, face).surface
         u0, u1, v0, v1 = surface.range

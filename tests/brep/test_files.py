@@ -68,7 +68,8 @@ def test_names_of_solids_and_faces_survive_in_step(tmp_path):
 
 
 def test_one_colour_for_all(tmp_path):
-    files.write(files.Model(Part.makeBox(1, 2, 3), "Box", Decoration(colours=((1.0, 0.0, 0.0, 0.0),))), tmp_path / "m.step")
+    red = Decoration(colours=((1.0, 0.0, 0.0, 0.0),))
+    files.write(files.Model(Part.makeBox(1, 2, 3), "Box", red), tmp_path / "m.step")
     assert set(files.read(tmp_path / "m.step").decoration.colours) == {(1.0, 0.0, 0.0, 0.0)}
 
 

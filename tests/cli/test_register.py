@@ -36,7 +36,8 @@ def test_writes_model_report_and_picture(ffds, plate, tmp_path):
     # E|N(0, 0.05)| = 0.04 mm is all that may be left; a fit of 8000 points cannot be far below.
     assert 0.03 < face["deviation_after"]["mean"] < 0.044 < face["deviation_before"]["mean"]
     topology = report["topology"]
-    assert topology["before"] == topology["after"] and topology["order_kept"] and topology["valid"] and topology["closed"]
+    assert topology["before"] == topology["after"]
+    assert topology["order_kept"] and topology["valid"] and topology["closed"]
     assert report["scan"] == {"points": 8000, "dropped": 0, "noise": pytest.approx(0.05, rel=0.1), "unit": "mm"}
     assert report["timing"]["total"] > 0
 
@@ -86,7 +87,8 @@ def test_bad_input_is_one_line_and_no_file(ffds, plate, tmp_path, case):
     _changed(scan, tmp_path / "far.xyz", lambda points: points + (10000, 0, 0))
     before = sorted(tmp_path.iterdir())
     names = {"MODEL": model, "SCAN": scan}
-    process = ffds("register", *(names.get(item, item) for item in arguments), "--out", "out.step", "--report", "r.json")
+    arguments = [names.get(item, item) for item in arguments]
+    process = ffds("register", *arguments, "--out", "out.step", "--report", "r.json")
     assert process.returncode == code, process.stderr
     assert message in process.stderr
     assert process.stderr.count("\n") == 1 and process.stdout == "" and "Traceback" not in process.stderr
@@ -121,8 +123,8 @@ def test_a_full_disk_leaves_the_earlier_file(ffds, plate, tmp_path, suffix):
 
 
 def test_an_interruption_leaves_nothing(plate, tmp_path):
-    process = subprocess.Popen([ROOT / "ffds", "register", *plate, "--face", "Face6", "--out", "out.step"], cwd=tmp_path,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command = [ROOT / "ffds", "register", *plate, "--face", "Face6", "--out", "out.step"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(1.5)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
