@@ -89,12 +89,13 @@ def displacement_lattice(surface: SplineSurface, size: tuple[int, int]) -> Contr
     knots_u, fold_u = _direction(u0, u1, size[0], surface.periodic_u, _same(points[0], points[-1]))
     knots_v, fold_v = _direction(v0, v1, size[1], surface.periodic_v, _same(points[:, 0], points[:, -1]))
     unknown = np.arange((fold_u.max() + 1) * (fold_v.max() + 1)).reshape(fold_u.max() + 1, fold_v.max() + 1)
-    for end in (0, -1):
-        if not surface.periodic_u and _same(points[end], points[end][:1]):
-            unknown[end] = unknown[end].min()
-        if not surface.periodic_v and _same(points[:, end], points[:1, end]):
-            unknown[:, end] = unknown[:, end].min()
-    unknown = np.unique(unknown, return_inverse=True)[1].reshape(unknown.shape)
+    poles = [(k, end) for k, periodic in enumerate((surface.periodic_u, surface.periodic_v)) if not periodic
+             for end in (0, -1) if _same(np.take(points, end, axis=k), np.take(points, end, axis=k)[:1])]
+    for axis, end in poles:
+        row = np.moveaxis(unknown, axis, 0)[end]
+        row[:] = row.min()
+    if poles:
+        unknown = np.unique(unknown, return_inverse=True)[1].reshape(unknown.shape)
     return ControlLattice(knots_u, knots_v, fold_u, fold_v, unknown, surface.periodic_u, surface.periodic_v)
 
 

@@ -15,6 +15,7 @@ from scipy.interpolate import BSpline
 
 Array = NDArray[np.float64]
 DEGREE = 3
+_SMALL = 40000
 
 
 def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) -> Array:
@@ -37,9 +38,9 @@ def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int =
     Meant for grids, where it is small. Scattered points go through `basis_rows`.
     """
     count = len(knots) - degree - 1
-    if derivative == 0:
+    if derivative == 0 and count * len(x) > _SMALL:
         return np.asarray(BSpline.design_matrix(x, knots, degree).toarray())
-    return np.asarray(BSpline(knots, np.eye(count), degree)(x, nu=derivative))
+    return np.asarray(BSpline.construct_fast(knots, np.eye(count), degree)(x, nu=derivative))
 
 
 def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np.intp], Array]:
