@@ -46,19 +46,24 @@ def add_options(command: argparse.ArgumentParser) -> None:
     which.add_argument("--edge", nargs="+", action="extend", default=[], metavar="EdgeN",
                        help="edges, joined where they go on along tangency; with --auto, only the joints along them")
     which.add_argument("--auto", type=float, metavar="TOL", help="find the joints of parts that touch within TOL mm")
-    which.add_argument("--chain", action="store_true", help="add the edges that go on from the named ones along tangency")
-    which.add_argument("--start", type=_numbers(3), metavar="X,Y,Z", help="where a closed seam starts, or the end to start at")
+    which.add_argument("--chain", action="store_true",
+                       help="add the edges that go on from the named ones along tangency")
+    which.add_argument("--start", type=_numbers(3), metavar="X,Y,Z",
+                       help="where a closed seam starts, or the end to start at")
     which.add_argument("--reverse", action="store_true", help="weld in the other direction")
     which.add_argument("--limit", nargs="+", action="extend", default=[], type=_limit, metavar="NAME=VALUE",
                        help=f"what passes: {', '.join(LIMITS)}, in mm and degrees (default: 1, 1, 2, 0.5, 5, 5)")
     torch = command.add_argument_group("stations and torch")
-    torch.add_argument("--step", type=float, default=5.0, metavar="MM", help="largest distance of stations (default: 5)")
+    torch.add_argument("--step", type=float, default=5.0, metavar="MM",
+                       help="largest distance of stations (default: 5)")
     torch.add_argument("--chord", type=float, default=0.05, metavar="MM",
                        help="largest distance of the seam from the straight line between stations (default: 0.05)")
     torch.add_argument("--work-angle", type=float, default=0.0, metavar="DEG", help="lean about the travel direction")
-    torch.add_argument("--travel-angle", type=float, default=0.0, metavar="DEG", help="lean forwards (push) or back (drag)")
+    torch.add_argument("--travel-angle", type=float, default=0.0, metavar="DEG",
+                       help="lean forwards (push) or back (drag)")
     robot = command.add_argument_group("robot")
-    robot.add_argument("--tool", metavar="TOOL", help="its number (KUKA), its name (ABB), or X,Y,Z,A,B,C in mm and degrees")
+    robot.add_argument("--tool", metavar="TOOL",
+                       help="its number (KUKA), its name (ABB), or X,Y,Z,A,B,C in mm and degrees")
     robot.add_argument("--base", metavar="BASE", help="where the model stands, given like the tool")
     robot.add_argument("--velocity", type=float, default=10.0, metavar="MM/S", help="along the seam (default: 10)")
     robot.add_argument("--approach", type=float, default=50.0, metavar="MM",
@@ -69,7 +74,8 @@ def _add_carry(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("carry", help="carry a path taught on the nominal model to the as-built one")
     command.add_argument("nominal", type=Path, metavar="NOMINAL", help="the model that the path was taught on")
     command.add_argument("as_built", type=Path, metavar="AS_BUILT", help="the model that register made of it")
-    command.add_argument("path", type=Path, metavar="PATH", help=".csv, or .src with its .dat, in the frame of the model")
+    command.add_argument("path", type=Path, metavar="PATH",
+                         help=".csv, or .src with its .dat, in the frame of the model")
     command.add_argument("--out", type=Path, required=True, metavar="NEW_PATH", help="in the format of PATH")
     command.set_defaults(run=carry)
 
@@ -133,7 +139,8 @@ def read_options(options: argparse.Namespace) -> tuple[api.RobotSettings, api.Se
 
 def _written(options: argparse.Namespace) -> str:
     paths = [*options.out, *(path for path in (options.report, options.picture) if path is not None)]
-    return "Written: " + ", ".join(f"{path} (and .dat)" if path.suffix.lower() == ".src" else str(path) for path in paths)
+    return "Written: " + ", ".join(f"{path} (and .dat)" if path.suffix.lower() == ".src" else str(path)
+                                   for path in paths)
 
 
 def carry(options: argparse.Namespace, progress: ProgressLine) -> str:

@@ -44,16 +44,19 @@ class Wanted:
 
 def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line's parser."""
-    command = commands.add_parser("weld", help="all in one: scan, as-built model, seams, robot programs, and a page on it")
+    command = commands.add_parser("weld",
+                                  help="all in one: scan, as-built model, seams, robot programs, and a page on it")
     command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN", help="several of one part are fused")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
     command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
                          help="faces to deform (default: every face that the scan observes)")
-    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN", help="faces that must not move")
+    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
+                         help="faces that must not move")
     cli_seams.add_options(command)
-    command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS), help="default: all three")
+    command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS),
+                         help="default: all three")
     command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for all that comes of it")
     command.set_defaults(run=weld)
 
@@ -63,7 +66,8 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
     from . import api
 
     if not options.edge and options.auto is None:
-        raise InputError("No seam was named: give --edge, or --auto with the distance within which parts count as touching.")
+        raise InputError("No seam was named: give --edge, or --auto with the distance within which parts count as "
+                         "touching.")
     robot, settings, limits = cli_seams.read_options(options)
     folder = make_folder(options.out)
     progress(f"Reading {options.model}")
@@ -94,11 +98,12 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     progress(f"Writing {folder / as_built}")
     api.write(result, folder / as_built, report, picture, inputs)
     progress("Finding and measuring the seams")
-    plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report, wanted.settings,
-                          wanted.limits)
+    plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report,
+                          wanted.settings, wanted.limits)
     programs = [DIALECTS[dialect] for dialect in wanted.dialects]
     outs = [folder / name for name in ("seams.csv", *programs, "seams.FCStd")]
-    notes = [*plan.notes, *api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs)]
+    written = api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs)
+    notes = [*plan.notes, *written]
     seams = "\n".join([plan.table(), *(f"Note: {note}" for note in notes)])
     if "kuka" in wanted.dialects:
         programs.append("seams.dat")
@@ -106,8 +111,8 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
         Step("Scan", "What the scanner saw, in the model's coordinates.", _about_scan(result.scan)),
         Step("As-built model", "The nominal model deformed to the scan, with its topology unchanged.", result.table(),
              picture.name, [as_built, report.name]),
-        Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.", seams,
-             "seams.png", ["seams.csv", "seams.json"]),
+        Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.",
+             seams, "seams.png", ["seams.csv", "seams.json"]),
         Step("Robot programs", "The same poses in each dialect, in the frame of the model.",
              _about_robot(wanted.robot), None, [*programs, "seams.FCStd"])]
     with replacing(folder / PAGE) as (temporary,):

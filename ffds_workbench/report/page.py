@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 _STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; color: #1d2733; margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 1100px }
+body { font: 15px/1.5 system-ui, sans-serif; color: #1d2733; margin: 0 auto; padding: 2rem 1.5rem 4rem;
+       max-width: 1100px }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem } h2 { font-size: 1.15rem; margin: 2.4rem 0 .5rem }
 h2 span { color: #fff; background: #2b6cb0; border-radius: 1em; padding: .05em .6em; margin-right: .5em }
-p { color: #6b7785; margin: .2rem 0 .8rem } pre { background: #f4f6f8; padding: .9rem 1rem; overflow-x: auto; font-size: 12.5px }
+p { color: #6b7785; margin: .2rem 0 .8rem }
+pre { background: #f4f6f8; padding: .9rem 1rem; overflow-x: auto; font-size: 12.5px }
 img { width: 100%; border: 1px solid #dfe3e8 } a { color: #2b6cb0; margin-right: 1.2em }
 """
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Poses held by the model: each by the nearest edge or face, so that it moves and turns with what is there.
 
-A pose near an edge is held by (edge, fraction) and turns with the edge's torch frame; any other by (face, u, v) and turns
-with the face's tangent plane. What it stood off the model is carried along, turned.
+A pose near an edge is held by (edge, fraction) and turns with the edge's torch frame; any other by (face, u, v) and
+turns with the face's tangent plane. What it stood off the model is carried along, turned.
 """
 from __future__ import annotations
 
@@ -78,7 +78,8 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
     anchors = [max(several, key=lambda anchor: held_by[anchor.edge], default=None) for several in candidates]
     held = np.array([anchor is not None for anchor in anchors])
     if not held.any():
-        raise RefusedError("No pose of the path is near the nominal model: is the path in mm, and in the model's frame?")
+        raise RefusedError("No pose of the path is near the nominal model: is the path in mm, and in the model's "
+                           "frame?")
     origin, target, rotation = points.copy(), points.copy(), np.tile(np.eye(3), (len(points), 1, 1))
     for edge in sorted({anchor.edge for anchor in anchors if anchor and anchor.edge is not None}):
         rows = np.array([i for i, anchor in enumerate(anchors) if anchor and anchor.edge == edge])
@@ -113,8 +114,9 @@ class _Finder:
                 return self._on_edges(vertex, to_edge, on_edge[0][1])
         kind, index, parameter = supports[0][3:6]
         if kind != "Face":
-            index = min(range(len(self._nominal.faces)), key=lambda face: vertex.distToShape(self._nominal.faces[face])[0])
-            parameter = self._nominal.faces[index].Surface.parameter(feet[0][1])
+            faces = self._nominal.faces
+            index = min(range(len(faces)), key=lambda face: vertex.distToShape(faces[face])[0])
+            parameter = faces[index].Surface.parameter(feet[0][1])
         return [_Anchor(None, index, parameter)]
 
     def _on_edges(self, vertex: Part.Vertex, distance: float, foot: FreeCAD.Vector) -> list[_Anchor]:
@@ -142,10 +144,12 @@ def _edge_motion(nominal: Weldment, as_built: Weldment, edge: int, fractions: Ar
     return before.positions, after.positions, turned[1] @ np.swapaxes(turned[0], 1, 2)
 
 
-def _face_motion(nominal: Weldment, as_built: Weldment, face: int, uv: tuple[float, float]) -> tuple[Array, Array, Array]:
+def _face_motion(nominal: Weldment, as_built: Weldment, face: int,
+                 uv: tuple[float, float]) -> tuple[Array, Array, Array]:
     ranges = [np.array(model.faces[face].ParameterRange) for model in (nominal, as_built)]
     if np.abs(ranges[0] - ranges[1]).max() > _SAME_PARAMETERS * np.abs(np.diff(ranges[0])[[0, 2]]).max():
-        raise RefusedError(f"Face{face + 1} has other parameters in the as-built model: use the model that register wrote.")
+        raise RefusedError(f"Face{face + 1} has other parameters in the as-built model: use the model that "
+                           "register wrote.")
     places = [_tangent_plane(model.faces[face], *uv) for model in (nominal, as_built)]
     # The rotation nearest to the map of the tangent planes, by polar decomposition.
     left, _, right = np.linalg.svd(places[1][1] @ np.linalg.inv(places[0][1]))

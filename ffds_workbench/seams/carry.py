@@ -75,7 +75,8 @@ def _files(path: Path, out: Path) -> tuple[list[Path], list[Path]]:
     if suffix not in FORMATS:
         raise InputError(f"The path {path} is of an unknown format: use .csv, or .src and .dat of a KUKA.")
     if out.suffix.lower() != suffix:
-        raise InputError(f"The path is carried along in its own format: name the output {out.with_suffix(suffix).name}.")
+        name = out.with_suffix(suffix).name
+        raise InputError(f"The path is carried along in its own format: name the output {name}.")
     data = path.with_suffix(".dat")
     if suffix == ".src" and data.exists():
         return [path, data], [out, out.with_suffix(".dat")]

@@ -143,13 +143,14 @@ def _follow(stretches: Sequence[Stretch], partner: dict[tuple[int, bool], _End])
         backwards = [] if closed else _walk(first, True, partner)[0][1:]
         run = [(number, not turned) for number, turned in reversed(backwards)] + forwards
         left -= {number for number, _ in run}
-        seams.append(Seam(tuple(stretches[number].reversed() if turned else stretches[number] for number, turned in run),
-                          closed))
+        chain = (stretches[number].reversed() if turned else stretches[number] for number, turned in run)
+        seams.append(Seam(tuple(chain), closed))
     return seams
 
 
-def _walk(first: int, through_start: bool, partner: dict[tuple[int, bool], _End]) -> tuple[list[tuple[int, bool]], bool]:
-    """(stretch, whether it is run backwards) from ``first`` on, leaving it through its end or its start; and whether closed."""
+def _walk(first: int, through_start: bool,
+          partner: dict[tuple[int, bool], _End]) -> tuple[list[tuple[int, bool]], bool]:
+    """(stretch, whether it is run backwards) from ``first`` on, left by its end or start; and whether closed."""
     run = [(first, through_start)]
     while (entered := partner.get((run[-1][0], run[-1][1]))) is not None:
         if entered.stretch == first:
@@ -190,7 +191,8 @@ def _next(weldment: Weldment, edge: int, vertex: int, corner: float) -> int | No
     chosen = with_face or candidates
     if len(chosen) > 1:
         names = " and ".join(f"Edge{other + 1}" for other in chosen)
-        raise RefusedError(f"The seam branches after Edge{edge + 1}: {names} both go on from it; name the edges one by one.")
+        raise RefusedError(f"The seam branches after Edge{edge + 1}: {names} both go on from it; name the edges "
+                           "one by one.")
     return chosen[0] if chosen else None
 
 
@@ -222,7 +224,8 @@ def _reversed(seam: Seam) -> Seam:
 def _turned(weldment: Weldment, seam: Seam, start: Array) -> Seam:
     """A closed seam, cut open at its point nearest to ``start``."""
     along = np.linspace(0.0, 1.0, _START_SAMPLES + 1)
-    distances = np.array([np.linalg.norm(_points(weldment, stretch, along) - start, axis=1) for stretch in seam.stretches])
+    distances = np.array([np.linalg.norm(_points(weldment, stretch, along) - start, axis=1)
+                          for stretch in seam.stretches])
     number, nearest = np.unravel_index(distances.argmin(), distances.shape)
     cut = seam.stretches[number]
     low, high = along[max(nearest - 1, 0)], along[min(nearest + 1, _START_SAMPLES)]

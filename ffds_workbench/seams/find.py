@@ -55,7 +55,8 @@ def named_seams(weldment: Weldment, names: Sequence[str], settings: SeamSettings
     for edge in edges:
         joints, covered = _joints_on(weldment, edge, tolerance)
         if _MOST_OF_IT <= covered < _ALL_OF_IT:
-            notes.append(f"Edge{edge + 1} lies on another part over {covered:.0%} of its length: the seam runs there alone.")
+            notes.append(f"Edge{edge + 1} lies on another part over {covered:.0%} of its length: the seam runs there "
+                         "alone.")
         stretches += joints if covered >= _MOST_OF_IT else [Stretch(edge, 0.0, 1.0, weldment.sides(edge))]
     refuse_branches(weldment, stretches)
     seams, branchings = join(weldment, stretches, settings.corner)
@@ -64,7 +65,8 @@ def named_seams(weldment: Weldment, names: Sequence[str], settings: SeamSettings
     for seam in seams:
         length = seam_length(weldment, seam)
         if length < settings.min_length:
-            raise RefusedError(f"{seam.name} is only {length:.2g} mm long: a seam needs at least {settings.min_length:g} mm.")
+            raise RefusedError(f"{seam.name} is only {length:.2g} mm long: a seam needs at least "
+                               f"{settings.min_length:g} mm.")
     return FoundSeams(tuple(seams), tuple(notes))
 
 
@@ -97,7 +99,7 @@ def joint_seams(weldment: Weldment, tolerance: float, settings: SeamSettings, na
 
 
 def _joints_on(weldment: Weldment, edge: int, tolerance: float) -> tuple[list[Stretch], float]:
-    """The joints along one edge, and the share of its range that they cover; whole where they cover all but its ends."""
+    """The joints along one edge, whole where they cover all but its ends, and the share of it that they cover."""
     joints, _ = find_joints(weldment, tolerance, [edge])
     for joint in joints:
         if joint.end - joint.start >= _ALL_OF_IT:

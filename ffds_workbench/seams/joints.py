@@ -24,7 +24,7 @@ _LEAST_OPENING = np.deg2rad(20.0)
 _FLAT = np.deg2rad(150.0)
 _LARGE = 0.5
 _BESIDE = 0.01
-"""Beside a face's border by more than this (mm, beyond what it is farther inside), an edge no longer lies on the face."""
+"""Farther beside a face's border than this (mm, and what it is farther inside), an edge no longer lies on it."""
 _SAME_RUN = 0.9
 """Two faces belong to the same run of an edge where they share this much of it."""
 
@@ -112,7 +112,8 @@ def _runs(weldment: Weldment, edge: int, face: int, tolerance: float) -> list[_R
         # An end is sought from the second sample inwards: the first may already lie beyond the face's border.
         inner_first, inner_last = min(first + 1, last), max(last - 1, first)
         start = 0.0 if first == 0 else _border(weldment, edge, face, tolerance, fractions[[inner_first, first - 1]])
-        end = 1.0 if last == _SAMPLES - 1 else _border(weldment, edge, face, tolerance, fractions[[inner_last, last + 1]])
+        at_end = last == _SAMPLES - 1
+        end = 1.0 if at_end else _border(weldment, edge, face, tolerance, fractions[[inner_last, last + 1]])
         if end > start:
             runs.append(_Run(face, start, end))
     return runs
@@ -200,7 +201,7 @@ def _length(weldment: Weldment, stretch: Stretch) -> float:
 
 
 def _each_once(weldment: Weldment, found: list[tuple[Stretch, float]], tolerance: float) -> list[Stretch]:
-    """Without those that others cover: where parts meet edge to edge, both edges tell of the joint. Whole edges stay."""
+    """Without those that others cover: where parts meet edge to edge, both tell of the joint. Whole edges stay."""
     def order(item: tuple[Stretch, float]) -> tuple[bool, float, int]:
         stretch, length = item
         return (stretch.start, stretch.end) != (0.0, 1.0), -round(length, 2), stretch.edge

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The as-built seam against the nominal one, station by station.
 
-The topology is the same, so EdgeN is EdgeN; a station is paired with the nominal point at the same fraction of the edge's
-parameter range, which the rebuild keeps, or at the same share of its length where the ranges differ.
+The topology is the same, so EdgeN is EdgeN; a station is paired with the nominal point at the same fraction of the
+edge's parameter range, which the rebuild keeps, or at the same share of its length where the ranges differ.
 """
 from __future__ import annotations
 

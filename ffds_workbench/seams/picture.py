@@ -101,7 +101,8 @@ def _starts(seams: Sequence[MeasuredSeam]) -> Array:
 def _draw_plot(axes: Any, label: str, curves: Sequence[_Curve], plan: SeamPlan, starts: Array) -> None:
     for curve, colour in zip(curves, _LINES, strict=False):
         found = [(start, seam, curve.values(seam)) for start, seam in zip(starts, plan.seams, strict=True)]
-        shown = [(start + seam.stations.places.arc_length, values) for start, seam, values in found if values is not None]
+        shown = [(start + seam.stations.places.arc_length, values) for start, seam, values in found
+                 if values is not None]
         for number, (along, values) in enumerate(shown):
             axes.plot(along, values, color=colour, linewidth=1.5, label=curve.name if number == 0 else None, zorder=3)
     largest = max((float(np.nanmax(np.abs(values))) for seam in plan.seams for curve in curves
@@ -150,7 +151,8 @@ def _draw_part(axes: Any, plan: SeamPlan) -> None:
 
     out = -np.concatenate([seam.stations.bisector[:, :, 2] for seam in plan.seams]).mean(axis=0)
     view = _view(out)
-    part = [np.array([tuple(point) for point in edge.discretize(40)]) for edge in plan.shape.Edges if not edge.Degenerated]
+    part = [np.array([tuple(point) for point in edge.discretize(40)]) for edge in plan.shape.Edges
+            if not edge.Degenerated]
     axes.add_collection(LineCollection([line @ view[:2].T for line in part], colors=_PART, linewidths=0.8))
     for number, seam in enumerate(plan.seams, 1):
         colour = _UNJUDGED if not seam.largest() else _FAIL if seam.exceeded(plan.limits) else _PASS
@@ -187,12 +189,14 @@ def _legend(axes: Any, plan: SeamPlan) -> None:
     handles = [Line2D([], [], color=colour, linewidth=2.6, linestyle=style, label=text)
                for colour, style, text in entries if colour in used]
     if any(seam.doubts for seam in plan.seams):
-        handles.append(Line2D([], [], color=_MUTED, linewidth=2.6, linestyle=(0, (2, 1.2)), label="not wholly observed"))
+        handles.append(Line2D([], [], color=_MUTED, linewidth=2.6, linestyle=(0, (2, 1.2)),
+                              label="not wholly observed"))
     flags = {flag for seam in plan.seams if seam.reported for flag in seam.flags.tolist()}
     handles += [Patch(color=colour, label=flag) for flag, colour in _UNSEEN.items() if flag in flags]
     handles.append(Line2D([], [], color=_MUTED, marker="o", linestyle="none", markersize=5, label="start"))
-    axes.legend(handles=handles, frameon=False, fontsize=9, loc="upper left", labelcolor=_INK, ncols=min(4, len(handles)),
-                bbox_to_anchor=(0.0, -0.01), borderaxespad=0.0, handlelength=1.8, columnspacing=1.4)
+    axes.legend(handles=handles, frameon=False, fontsize=9, loc="upper left", labelcolor=_INK,
+                ncols=min(4, len(handles)), bbox_to_anchor=(0.0, -0.01), borderaxespad=0.0, handlelength=1.8,
+                columnspacing=1.4)
 
 
 def _view(towards: Array) -> Array:

@@ -101,7 +101,7 @@ def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (),
 
 
 def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), inputs: Sequence[Path] = ()) -> None:
-    """Refuse tables and programs (``outs``), or reports and pictures (``extra``), that cannot be written (InputError)."""
+    """Refuse tables and programs (``outs``), reports and pictures (``extra``) that cannot be written (InputError)."""
     targets = [target for out in outs for target in _targets(out)] + [path for path in extra if path is not None]
     if len({target.resolve() for target in targets}) < len(targets):
         raise InputError("Two outputs have the same name: choose different ones.")
@@ -112,8 +112,8 @@ def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), 
 def _targets(path: Path) -> list[Path]:
     """The files that an output consists of: a KRL program comes with its points."""
     if path.suffix.lower() not in FORMATS:
-        raise InputError(f"The output {path} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal "
-                         "Robots) or .FCStd.")
+        raise InputError(f"The output {path} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script "
+                         "(Universal Robots) or .FCStd.")
     return [path, path.with_suffix(".dat")] if path.suffix.lower() == ".src" else [path]
 
 
@@ -153,7 +153,8 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
             if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
 
 
-def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequence[SeamMoves], robot: RobotSettings) -> None:
+def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequence[SeamMoves],
+               robot: RobotSettings) -> None:
     suffix = out.suffix.lower()
     if suffix == ".fcstd":
         from .programs.trajectory import write_document

@@ -22,8 +22,8 @@ from .programs.conventions import from_kuka_angles, kuka_angles
 _WITHOUT_HEADER = {3: "x y z", 6: "x y z a b c", 7: "x y z qx qy qz qw"}
 _POSITION, _QUATERNION, _ANGLES = ("x", "y", "z"), ("qx", "qy", "qz", "qw"), ("a", "b", "c")
 _DIRECTIONS = (("tx", "ty", "tz"), ("n1x", "n1y", "n1z"), ("n2x", "n2y", "n2z"))
-_OF_THE_NOMINAL = ("gap", "band", "flag", "curvature", "work_angle", "lateral", "normal", "longitudinal", "opening_angle",
-                   "torch_rotation", "opening")
+_OF_THE_NOMINAL = ("gap", "band", "flag", "curvature", "work_angle", "lateral", "normal", "longitudinal",
+                   "opening_angle", "torch_rotation", "opening")
 """Figures of a seam table that no longer hold; they are emptied."""
 
 
@@ -89,7 +89,8 @@ class TaughtCsv:
     def _numbers(self, group: tuple[str, ...]) -> Array:
         columns = [self.names.index(name) for name in group]
         try:
-            values = np.array([[float(row[column].replace(self.decimal, ".")) for column in columns] for row in self.rows])
+            values = np.array([[float(row[column].replace(self.decimal, ".")) for column in columns]
+                               for row in self.rows])
         except (ValueError, IndexError) as error:
             raise InputError(f"The path has a row without numbers for {', '.join(group)}.") from error
         if not np.isfinite(values).all():
@@ -116,7 +117,8 @@ def read_csv(text: str) -> TaughtCsv:
     delimiter = max(";\t,", key=lambda mark: (mark in lines[0], -";\t,".index(mark)))
     rows = [tuple(cell.strip() for cell in row) for row in csv.reader(lines, delimiter=delimiter)]
     decimal = "," if delimiter != "," and any("," in cell for row in rows[1:] for cell in row) else "."
-    header = rows[0] if any(any(c.isalpha() for c in cell) and not _is_number(cell, decimal) for cell in rows[0]) else None
+    words = [cell for cell in rows[0] if any(map(str.isalpha, cell)) and not _is_number(cell, decimal)]
+    header = rows[0] if words else None
     body = rows[1:] if header else rows
     names = tuple(cell.lower() for cell in header) if header else tuple(_WITHOUT_HEADER.get(len(rows[0]), "").split())
     if not set(_POSITION) <= set(names):

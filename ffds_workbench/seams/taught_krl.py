@@ -19,7 +19,8 @@ from .programs.moves import numbers
 
 _AGGREGATE = re.compile(r"\{[^{}]*\}")
 _NUMBER = re.compile(r"\b([XYZABC])\s+([-+]?(?:\d+\.?\d*|\.\d+)(?:E[-+]?\d+)?)", re.IGNORECASE)
-_NOT_A_POSE = re.compile(r"\$(BASE|TOOL|WORLD|ROBROOT|NULLFRAME)\b|(BASE|TOOL|LOAD|MACHINE)_DATA|\$?LOAD\b|_REL\b", re.IGNORECASE)
+_NOT_A_POSE = re.compile(r"\$(BASE|TOOL|WORLD|ROBROOT|NULLFRAME)\b|(BASE|TOOL|LOAD|MACHINE)_DATA|\$?LOAD\b|_REL\b",
+                         re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,8 @@ class TaughtKrl:
         for pose, point, turn in reversed(list(zip(self._poses, points, turned, strict=True))):
             new = dict(zip("XYZABC", [*numbers(point, 4), *numbers(turn, 5)], strict=True))
             text = texts[pose.file]
-            replaced = _NUMBER.sub(lambda match, new=new: f"{match[1]} {new[match[1].upper()]}", text[pose.start : pose.end])
+            replaced = _NUMBER.sub(lambda match, new=new: f"{match[1]} {new[match[1].upper()]}",
+                                   text[pose.start : pose.end])
             texts[pose.file] = text[: pose.start] + replaced + text[pose.end :]
         return tuple(texts)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the registration knows of a seam: observed or guessed, and its 95 % band. Read from the registration's report."""
+"""What the registration knows of a seam: observed or guessed, and its 95 % band; from the registration's report."""
 from __future__ import annotations
 
 import json
@@ -38,7 +38,7 @@ class Trust:
         return flags[stations.places.stretch], bands[stations.places.stretch]
 
     def _of(self, stretch: Stretch) -> _Entry:
-        """The edge's own entry. Where parts meet, one face of the edge is covered: the joined faces being seen counts too."""
+        """The edge's own entry. Where parts meet, one face of the edge is covered: the joined faces count too."""
         faces = [self.entries.get(f"Face{face + 1}", _UNKNOWN) for face in stretch.faces]
         joined = _Entry(max((entry.flag for entry in faces), key=FLAGS.index), max(entry.band for entry in faces))
         own = self.entries.get(stretch.name)

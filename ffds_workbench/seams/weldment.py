@@ -44,7 +44,7 @@ class CurvePoints:
 
 @dataclass(frozen=True)
 class NearestPoints:
-    """The nearest points of some faces: (n, 3) points, (n, 3) outward normals there, (n,) distances, (n,) face indices."""
+    """Nearest points of some faces: (n, 3) points, (n, 3) outward normals there, (n,) distances, (n,) face indices."""
 
     points: Array
     normals: Array
@@ -131,7 +131,8 @@ class Weldment:
         """Outward unit normals of a face along one of its edges, (n, 3)."""
         uv = self._uv(face, edge, fractions)
         inner = self._uv(face, edge, np.clip(fractions, _INWARDS, 1.0 - _INWARDS))
-        return np.array([self._normal(face, *at, *instead) for at, instead in zip(uv.tolist(), inner.tolist(), strict=True)])
+        return np.array([self._normal(face, *at, *instead)
+                         for at, instead in zip(uv.tolist(), inner.tolist(), strict=True)])
 
     def _uv(self, face: int, edge: int, fractions: Array) -> Array:
         return topology.edge_traces(self.faces[face], self.edges[edge], fractions)[0].uv

@@ -30,12 +30,13 @@ def job(tmp_path, monkeypatch):
 
 def test_from_scan_to_programs(job, tmp_path, capfd):
     edge, face = job
-    assert main(["weld", "plate.step", "scan.xyz", "--face", face, "--edge", edge, "--out", "job", "--robot", "kuka", "ur"]) == 0
+    assert main(["weld", "plate.step", "scan.xyz", "--face", face, "--edge", edge, "--out", "job", "--robot", "kuka",
+                 "ur"]) == 0
     text = capfd.readouterr().out
     assert edge in text and "order kept, valid, closed" in text
     names = {path.name for path in (tmp_path / "job").iterdir()}
-    assert names == {"as_built.step", "report.json", "deviation.png", "seams.csv", "seams.src", "seams.dat", "seams.script",
-                     "seams.FCStd", "seams.json", "seams.png", "report.html"}
+    assert names == {"as_built.step", "report.json", "deviation.png", "seams.csv", "seams.src", "seams.dat",
+                     "seams.script", "seams.FCStd", "seams.json", "seams.png", "report.html"}
     # The seam rises with the surface that was scanned: 0.5 mm in the middle, as far as one noisy face tells its border.
     (seam,) = json.loads((tmp_path / "job" / "seams.json").read_text())["seams"]
     assert seam["largest"]["normal"] == pytest.approx(0.5 * 0.5**0.5, abs=0.05)

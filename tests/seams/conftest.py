@@ -20,8 +20,8 @@ Warp = Callable[[np.ndarray], np.ndarray]
 def bumpy(points: np.ndarray) -> np.ndarray:
     """A smooth warp of 1 to 2 mm over parts of about 100 mm, not isometric."""
     x, y, z = points.T
-    return points + np.stack([0.8 * np.sin(y / 25.0) + 0.01 * z, 1.2 * np.cos(x / 30.0), 1.5 * np.sin(x / 40.0) * np.cos(y / 35.0)],
-                             axis=1)
+    return points + np.stack([0.8 * np.sin(y / 25.0) + 0.01 * z, 1.2 * np.cos(x / 30.0),
+                              1.5 * np.sin(x / 40.0) * np.cos(y / 35.0)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -53,14 +53,16 @@ def truth_of(warp: Warp, stations) -> Truth:
     jacobian = np.stack([(warp(at + h * axis) - warp(at - h * axis)) / (2 * h) for axis in np.eye(3)], axis=2)
     inverse = np.linalg.inv(jacobian)
     return Truth(warp(at), unit(np.einsum("nij,nj->ni", jacobian, stations.tangents)),
-                 unit(np.einsum("nji,nj->ni", inverse, stations.n1)), unit(np.einsum("nji,nj->ni", inverse, stations.n2)))
+                 unit(np.einsum("nji,nj->ni", inverse, stations.n1)),
+                 unit(np.einsum("nji,nj->ni", inverse, stations.n2)))
 
 
 def degrees_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Angles between unit vectors (n, 3), or of the rotations between frames (n, 3, 3)."""
     if a.ndim == 3:
         cosine = 0.5 * (np.einsum("nij,nij->n", a, b) - 1.0)
-        sine = np.linalg.norm(np.einsum("nij,nik->njk", a, b) - np.einsum("nij,nik->nkj", a, b), axis=(1, 2)) / np.sqrt(8.0)
+        turn = np.einsum("nij,nik->njk", a, b)
+        sine = np.linalg.norm(turn - turn.swapaxes(1, 2), axis=(1, 2)) / np.sqrt(8.0)
         return np.degrees(np.arctan2(sine, cosine))
     return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(1)))
 

@@ -26,8 +26,7 @@ def test_full_circle_starts_where_asked_and_closes(as_built, pipe_on_plate, tool
         # One turn in all, evenly: 360° over the stations, the warp bends the axis by some degrees.
         turns = tools.degrees_between(found.torch[1:], found.torch[:-1])
         assert turns.max() < 2.0 * 360.0 / len(turns)
-        assert (np.einsum("ij,ij->i", np.diff(quaternions(found.torch), axis=0), np.diff(quaternions(found.torch), axis=0))
-                < 0.1).all()
+        assert np.linalg.norm(np.diff(quaternions(found.torch), axis=0), axis=1).max() < 0.3
         angle = np.unwrap(np.arctan2(found.positions[:, 1], found.positions[:, 0]))
         assert np.degrees(angle[-1] - angle[0]) == pytest.approx(-360.0 if reverse else 360.0, abs=0.1)
 
@@ -35,7 +34,8 @@ def test_full_circle_starts_where_asked_and_closes(as_built, pipe_on_plate, tool
 def slotted_plate() -> Part.Shape:
     """A plate with rounded corners: its upper border is a chain of four lines and four arcs."""
     plate = Part.makeBox(60, 40, 5)
-    return plate.makeFillet(8, [edge for edge in plate.Edges if abs(edge.tangentAt(edge.FirstParameter).z) > 0.9]).Solids[0]
+    upright = [edge for edge in plate.Edges if abs(edge.tangentAt(edge.FirstParameter).z) > 0.9]
+    return plate.makeFillet(8, upright).Solids[0]
 
 
 def test_chain_along_tangency(tools):
@@ -104,7 +104,8 @@ def test_short_unknown_and_unnamed_are_refused(tools):
 
 
 def test_faces_back_to_back_are_refused():
-    wedge = Part.Face(Part.makePolygon([(0, 0, 0), (50, 0, 0), (50, 0, 2), (0, 0, 0)])).extrude(FreeCAD.Vector(0, 30, 0))
+    triangle = Part.Face(Part.makePolygon([(0, 0, 0), (50, 0, 0), (50, 0, 2), (0, 0, 0)]))
+    wedge = triangle.extrude(FreeCAD.Vector(0, 30, 0))
     edge = next(i for i, e in enumerate(wedge.Edges, 1) if all(abs(v.X) < 1e-9 for v in e.Vertexes))
     with pytest.raises(RefusedError, match="back to back"):
         plan_seams(wedge, [f"Edge{edge}"])

@@ -16,7 +16,8 @@ import pytest
 
 from ffds_workbench.errors import InputError
 from ffds_workbench.seams.plan import plan_seams, write_seams
-from ffds_workbench.seams.programs.conventions import abb_quaternions, from_kuka_angles, kuka_angles, ur_rotation_vectors
+from ffds_workbench.seams.programs.conventions import (abb_quaternions, from_kuka_angles, kuka_angles,
+                                                       ur_rotation_vectors)
 from ffds_workbench.seams.programs.moves import RobotSettings, moves, read_frame_choice
 
 R = 0.5**0.5
@@ -27,8 +28,8 @@ HAND = [
     # Torch straight down, travelling along +Y: half a turn about the diagonal of X and Y.
     (((0, 1, 0), (1, 0, 0), (0, 0, -1)), (90, 0, 180), (0, R, R, 0), (R, R, 0)),
     # Fillet between a floor and a wall that faces −Y, travelling along +X: z = (0, 1, −1)/√2, so −135° about X.
-    (((1, 0, 0), (0, -R, -R), (0, R, -R)), (0, 0, -135), (math.cos(math.radians(67.5)), -math.sin(math.radians(67.5)), 0, 0),
-     (-0.75, 0, 0)),
+    (((1, 0, 0), (0, -R, -R), (0, R, -R)), (0, 0, -135),
+     (math.cos(math.radians(67.5)), -math.sin(math.radians(67.5)), 0, 0), (-0.75, 0, 0)),
     # A quarter turn about Z.
     (((0, 1, 0), (-1, 0, 0), (0, 0, 1)), (90, 0, 0), (R, 0, 0, R), (0, 0, 0.5)),
     # KUKA's singular pose, B = 90°: x points down. A is free; with C = 0 it is 0.
@@ -79,7 +80,8 @@ NUMBER = r"(-?[\d.]+)"
 
 def read_krl(source: str, data: str) -> list:
     frames = {}
-    for name, *values in re.findall(rf"DECL FRAME (\w+)=\{{X {NUMBER},Y {NUMBER},Z {NUMBER},A {NUMBER},B {NUMBER},C {NUMBER}\}}", data):
+    pose = ",".join(f"{key} {NUMBER}" for key in "XYZABC")
+    for name, *values in re.findall(rf"DECL FRAME (\w+)=\{{{pose}\}}", data):
         numbers = list(map(float, values))
         frames[name] = (numbers[:3], from_abc(*numbers[3:]))
     return [frames[name] for name in re.findall(r"^(?:PTP|LIN) (XS\w+)", source, re.M)]
@@ -104,7 +106,8 @@ def read_urscript(text: str) -> list:
 
 def read_csv(text: str) -> list:
     rows = list(csv.DictReader(io.StringIO(text)))
-    return [([float(row[k]) for k in "xyz"], from_quaternion(*(float(row[k]) for k in ("qw", "qx", "qy", "qz")))) for row in rows]
+    return [([float(row[k]) for k in "xyz"], from_quaternion(*(float(row[k]) for k in ("qw", "qx", "qy", "qz"))))
+            for row in rows]
 
 
 def assert_same(found: list, poses: np.ndarray, tools) -> None:
@@ -170,7 +173,8 @@ def test_numbers_and_names_of_tools(as_built, pipe_on_plate, tmp_path):
     assert "$BASE=BASE_DATA[7]" in (tmp_path / "k.src").read_text()
     write_seams(plan, [tmp_path / "a.mod"], RobotSettings(tool="tGun", base="wPart"))
     assert "tGun\\WObj:=wPart;" in (tmp_path / "a.mod").read_text()
-    for name, robot in (("x.src", RobotSettings(tool="tGun")), ("x.mod", RobotSettings(base=2)), ("x.script", RobotSettings(tool=1))):
+    for name, robot in (("x.src", RobotSettings(tool="tGun")), ("x.mod", RobotSettings(base=2)),
+                        ("x.script", RobotSettings(tool=1))):
         with pytest.raises(InputError, match="give"):
             write_seams(plan, [tmp_path / name], robot)
         assert not list(tmp_path.glob("*x*"))

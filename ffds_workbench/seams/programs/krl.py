@@ -65,5 +65,6 @@ def _frame(table: str, choice: FrameChoice, default: str) -> str:
     if isinstance(choice, int):
         return f"{table}[{choice}]"
     if isinstance(choice, str):
-        raise InputError(f"KUKA controllers number tools and bases: give a number or X,Y,Z,A,B,C instead of '{choice}'.")
+        raise InputError("KUKA controllers number tools and bases: give a number or X,Y,Z,A,B,C instead of "
+                         f"'{choice}'.")
     return _aggregate([*numbers(choice[:3], 4), *numbers(choice[3:], 5)])

@@ -14,7 +14,7 @@ from ...registration.splines import Array
 from ..measured import MeasuredSeam
 
 FrameChoice = int | str | tuple[float, ...] | None
-"""A tool or a base: its number or name on the controller, or X, Y, Z, A, B, C in mm and degrees; None for the default."""
+"""A tool or a base: its number or name on the controller, or X, Y, Z, A, B, C in mm and degrees; None: the default."""
 
 AIR_VELOCITY = 100.0
 """Speed of approach and retract in mm/s."""
@@ -94,8 +94,9 @@ def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
     poses = np.tile(np.eye(4), (len(stations), 1, 1))
     poses[:, :3, :3], poses[:, :3, 3] = stations.torch, stations.positions
     spacing = float(np.linalg.norm(np.diff(stations.positions, axis=0), axis=1).min())
-    return SeamMoves(f"{seam.name} ({stations.seam.kind}), {stations.length:.1f} mm", _above(poses[0], settings.approach),
-                     poses, _above(poses[-1], settings.approach), min(_LARGEST_BLEND, 0.25 * spacing))
+    title = f"{seam.name} ({stations.seam.kind}), {stations.length:.1f} mm"
+    return SeamMoves(title, _above(poses[0], settings.approach), poses,
+                     _above(poses[-1], settings.approach), min(_LARGEST_BLEND, 0.25 * spacing))
 
 
 def _above(pose: Array, distance: float) -> Array:

@@ -27,7 +27,8 @@ def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -
     base, base_data = _choice("base", settings.base, "wobj0", "wFfdsModel")
     lines = [f"MODULE {name}_m",
              "  ! Welds seams of an as-built model. Targets: mm and quaternions [q1,q2,q3,q4], q1 the scalar.",
-             "  ! Torch frame: z out of the nozzle into the joint, x along the travel. The work object is the model's frame."]
+             "  ! Torch frame: z out of the nozzle into the joint, x along the travel.",
+             "  ! The work object is the frame of the model."]
     if tool_data:
         lines.append(f"  PERS tooldata {tool}:=[TRUE,{tool_data},[1,[0,0,100],[1,0,0,0],0,0,0]];")
     if base_data:

@@ -27,14 +27,15 @@ def urscript_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings
     tool, base = _pose("tool", settings.tool), _pose("base", settings.base)
     lines = [f"def {name}():",
              "  # Welds seams of an as-built model. Poses: metres and a rotation vector in rad.",
-             "  # Torch frame: z out of the nozzle into the joint, x along the travel. Poses are in the frame of the model."]
+             "  # Torch frame: z out of the nozzle into the joint, x along the travel.",
+             "  # Poses are in the frame of the model."]
     lines += [f"  set_tcp({tool})"] * (tool is not None) + [f"  model_frame = {base}"] * (base is not None)
     air, weld = (f"a={_ACCELERATION:g}, v={velocity / 1000.0:.6g}" for velocity in (AIR_VELOCITY, settings.velocity))
     for number, seam in enumerate(seams, 1):
         approach, *poses, retract = (f"pose_trans(model_frame, {pose})" if base else pose
                                      for pose in pose_texts(seam.all_poses))
-        lines += [f"  # {plain(seam.title)}", f"  movej({approach}, a={_ACCELERATION:g}, v=0.3)", f"  movel({poses[0]}, {air})",
-                  f"  # seam {number} starts"]
+        lines += [f"  # {plain(seam.title)}", f"  movej({approach}, a={_ACCELERATION:g}, v=0.3)",
+                  f"  movel({poses[0]}, {air})", f"  # seam {number} starts"]
         lines += [f"  movel({pose}, {weld}, r={seam.blend / 1000.0:.6f})" for pose in poses[1:-1]]
         lines += [f"  movel({poses[-1]}, {weld})", f"  # seam {number} ends", f"  movel({retract}, {air})"]
     return "\n".join([*lines, "end", f"{name}()"]) + "\n"
