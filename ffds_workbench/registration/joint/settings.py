@@ -53,7 +53,7 @@ class Stage:
     all_points: bool = False
 
 
-SCHEDULE = (Stage(1e3, 3.0, 2, 0.3), Stage(1e2, 2.0, 1, 0.3), Stage(10, 1.5, 1, 0.2), Stage(1, 1.2, 1, 0.1),
+SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
             Stage(1, 1.2, 5, 0.03, soft=True), Stage(1, 0.6, 4, 0.02, soft=True, all_points=True))
 
 

@@ -14,7 +14,7 @@ from .lattice import Index
 from .problem import Problem
 from .values import CellValues
 
-_TYPICAL = 0.6
+_TYPICAL = 0.75
 """Quantile of the distances from the nominal part that tells how far the part has moved."""
 _REACH = 1.5
 _LEAST_REACH = 3.0
