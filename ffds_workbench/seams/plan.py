@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..output import check_writable, replacing
 from . import report
 from .chains import directed
+from .clearance import blocked_ways
 from .find import joint_seams, named_seams
 from .measured import MeasuredSeam, SeamLimits, measure
 from .offsets import check_pair
@@ -124,7 +125,7 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
 
     Returns
     -------
-    notes : sentences on what the user must know of the files
+    notes : sentences on what the user must know of the programs
 
     Raises
     ------
@@ -149,8 +150,9 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
             from .picture import draw
 
             draw(names[picture], plan)
-    return [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
-            if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
+    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
+               if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
+    return blocked_ways(plan.shape, paths) + renamed
 
 
 def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequence[SeamMoves],

@@ -70,12 +70,13 @@ class SeamMoves:
 
     Attributes
     ----------
-    title : for comments
+    name : the seam's; ``title``: with more about it, for comments
     approach, retract : (4, 4) poses before the first and after the last station
     poses : (n, 4, 4) torch frames at the stations
     blend : radius in mm within which the robot may round the stations between the first and the last
     """
 
+    name: str
     title: str
     approach: Array
     poses: Array
@@ -95,7 +96,7 @@ def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
     poses[:, :3, :3], poses[:, :3, 3] = stations.torch, stations.positions
     spacing = float(np.linalg.norm(np.diff(stations.positions, axis=0), axis=1).min())
     title = f"{seam.name} ({stations.seam.kind}), {stations.length:.1f} mm"
-    return SeamMoves(title, _above(poses[0], settings.approach), poses,
+    return SeamMoves(seam.name, title, _above(poses[0], settings.approach), poses,
                      _above(poses[-1], settings.approach), min(_LARGEST_BLEND, 0.25 * spacing))
 
 

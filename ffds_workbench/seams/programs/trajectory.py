@@ -2,6 +2,7 @@
 """FreeCAD's own robot trajectories: one ``Robot::TrajectoryObject`` per seam, alone or in a new document."""
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,9 +13,23 @@ from ...errors import RefusedError
 from .moves import AIR_VELOCITY, RobotSettings, SeamMoves
 
 _NAMED_TOOL = 1
+_SHOWN = """<?xml version='1.0' encoding='utf-8'?>
+<Document SchemaVersion="1">
+    <ViewProviderData Count="{count}">{providers}
+    </ViewProviderData>
+    <Camera settings=""/>
+</Document>
+"""
+_PROVIDER = """
+        <ViewProvider name="{name}" expanded="0">
+            <Properties Count="1" TransientCount="0">
+                <Property name="Visibility" type="App::PropertyBool" status="1"><Bool value="true"/></Property>
+            </Properties>
+        </ViewProvider>"""
+"""What a document that was saved without a GUI lacks: it opens with everything hidden."""
 
 
-def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings) -> list[object]:
+def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings) -> list[FreeCAD.DocumentObject]:
     """Add the seams to a document; velocities are in mm/s, and a tool or base number is passed on."""
     objects = []
     tool = settings.tool if isinstance(settings.tool, int) else _NAMED_TOOL
@@ -39,9 +54,13 @@ def write_document(path: Path, seams: Sequence[SeamMoves], settings: RobotSettin
     """Write a new document that holds the seams alone (RefusedError if it cannot be written)."""
     document = FreeCAD.newDocument("FFDS_seams", hidden=True, temp=True)
     try:
-        add_trajectories(document, seams, settings)
+        names = [item.Name for item in add_trajectories(document, seams, settings)]
         document.recompute()
         document.saveAs(str(path))
+        if not FreeCAD.GuiUp:
+            providers = "".join(_PROVIDER.format(name=name) for name in names)
+            with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
+                archive.writestr("GuiDocument.xml", _SHOWN.format(count=len(names), providers=providers))
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
         raise RefusedError(f"The document could not be written: {error}.") from error
     finally:
