@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""``./ffds benchmark speed``: registration of a face against the building of a k-d tree over the same scan."""
+from __future__ import annotations
+
+import multiprocessing
+import resource
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..brep.lattice import ParameterBox, approximate
+from ..registration.control_lattice import displacement_lattice
+from ..registration.face import FaceGeometry
+from ..registration.ffds import equidistant_grid, register_ffds, solve
+from ..registration.neighbours import nearest_neighbours
+from ..registration.robust import register_robust
+from ..registration.splines import Array
+from . import page, sheet
+from .interleaved import median_seconds
+from .page import Section, Table
+
+Progress = Callable[[str], None]
+
+POINTS = 100_000
+SIZES = (100_000, 1_000_000, 5_000_000)
+_RADIUS, _LENGTH = 20.0, 60.0
+
+
+def run(folder: Path, progress: Progress, sizes: tuple[int, ...] = SIZES, repeats: int = 15) -> str:
+    """Measure, write speed.json, .md and .html into the folder, and give the tables as Markdown."""
+    progress("Builds of a k-d tree, and registrations, in turn")
+    builds = _builds(repeats)
+    scaling = []
+    for count in sizes:
+        progress(f"{count:,} points")
+        scaling.append(_apart(count))
+    data = {"points": POINTS, "builds": builds, "scaling": scaling}
+    return page.write(folder, "speed", "Speed", _sections(data), data)
+
+
+def curved_face() -> FaceGeometry:
+    """A full cylinder, R = 20 mm and 60 mm long, seen from outside."""
+
+    def cylinder(u: Array, v: Array) -> Array:
+        x, y = _RADIUS * np.cos(u), _RADIUS * np.sin(u)
+        return np.stack(np.broadcast_arrays(x[:, None], y[:, None], v[None]), axis=-1)
+
+    turn = 2 * np.pi
+    box = ParameterBox(0.0, turn, 0.0, _LENGTH, closed_u=True)
+    surface = approximate(cylinder, box, turn * np.arange(1, 8) / 8, np.zeros(0), 4e-6)
+    trim = np.array([[0.0, 0.0], [turn, 0.0], [turn, _LENGTH], [0.0, _LENGTH]])
+    return FaceGeometry("Cylinder", "Cylinder", surface, (trim,), 1)
+
+
+def curved_scan(points: int, seed: int = 0) -> Array:
+    """A scan of the cylinder moved aside by 1 mm and made oval, σ = 0.13 mm along the radius; (n, 3)."""
+    random = np.random.default_rng(seed)
+    angle, z = random.uniform((0, 0), (2 * np.pi, _LENGTH), (points, 2)).T
+    radius = _RADIUS + np.cos(angle) + 0.5 * np.cos(2 * angle + z / 30) + random.normal(0, sheet.NOISE, points)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)
+
+
+def _builds(repeats: int) -> dict[str, dict[str, float]]:
+    """Median seconds, and the ratio to one build of a k-d tree over the planar scan."""
+    face, scan = sheet.nominal(), sheet.scan("A", 0, POINTS)
+    curved, curved_points = curved_face(), curved_scan(POINTS)
+    seconds = median_seconds({
+        "k-d tree": lambda: cKDTree(scan),
+        "ffds, plane: neighbours and solve": lambda: _published(face, scan),
+        "ffds, plane: whole": lambda: register_ffds(face, scan),
+        "robust, plane": lambda: register_robust(face, scan),
+        "robust, cylinder": lambda: register_robust(curved, curved_points)}, repeats)
+    return {name: {"seconds": value, "builds": value / seconds["k-d tree"]} for name, value in seconds.items()}
+
+
+def _published(face: FaceGeometry, scan: Array) -> Array:
+    """Steps 2 to 4 of the published algorithm: 400 source points, 10 × 10 control points."""
+    control = displacement_lattice(face.surface, (10, 10))
+    u, v, on_face = equidistant_grid(face, 400)
+    source = face.surface.on_grid(u, v)[on_face]
+    return solve(control, u, v, on_face, scan[nearest_neighbours(scan, source)[1]] - source)
+
+
+def _apart(count: int) -> dict[str, Any]:
+    """One size in a process of its own, so that the peak of its memory is its own."""
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        return pool.apply(_scale, (count,))
+
+
+def _scale(count: int) -> dict[str, Any]:
+    face, scan = sheet.nominal(), sheet.scan("A", 0, count)
+    curved, curved_points = curved_face(), curved_scan(count)
+    jobs = {"ffds, plane": lambda: register_ffds(face, scan), "robust, plane": lambda: register_robust(face, scan),
+            "robust, cylinder": lambda: register_robust(curved, curved_points)}
+    row: dict[str, Any] = {"points": count}
+    for name, job in jobs.items():
+        times = []
+        for _ in range(7 if count < 1_000_000 else 3):
+            start = time.perf_counter()
+            job()
+            times.append(time.perf_counter() - start)
+        row[name] = float(np.median(times))
+    row["peak_megabytes"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return row
+
+
+def _sections(data: dict[str, Any]) -> list[Section]:
+    rows = [[name, f"{1e3 * row['seconds']:.1f}", f"{row['builds']:.2f}"] for name, row in data["builds"].items()]
+    builds = Table(f"{data['points']:,} scan points, medians of runs in turn", ["", "ms", "builds"], rows)
+    sizes = data["scaling"]
+    names = [name for name in sizes[0] if name not in ("points", "peak_megabytes")]
+    head = ["scan points", *(f"{name}, ms" for name in names), *(f"{name}, ns per further point" for name in names),
+            "peak memory, MB"]
+    rows = []
+    for k, row in enumerate(sizes):
+        further = [f"{_further(sizes[k - 1], row, name):.0f}" if k else "–" for name in names]
+        rows.append([f"{row['points']:,}", *(f"{1e3 * row[name]:.0f}" for name in names), *further,
+                     f"{row['peak_megabytes']:.0f}"])
+    scaling = Table("Time and memory against the size of the scan", head, rows)
+    text = ["A build is one `scipy.spatial.cKDTree(scan)` of the same 100,000 points in the same run. The peak memory is the "
+            "whole process's, its scans included."]
+    return [Section("Against a k-d tree", text, tables=[builds]), Section("Scaling", tables=[scaling])]
+
+
+def _further(smaller: dict[str, Any], larger: dict[str, Any], name: str) -> float:
+    return 1e9 * (larger[name] - smaller[name]) / (larger["points"] - smaller["points"])
