@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..registration.joint import EdgeRegistration, JointFace, JointRegistration
 from ..registration.result import FaceRegistration
 from ..scan.cloud import PointCloud
 from .deviation import FaceDeviation
@@ -33,23 +34,24 @@ def all_figures(faces: Sequence[FaceDeviation]) -> Record | None:
     return figures(np.concatenate([np.empty(0), *(face.deviations for face in faces)]))
 
 
-def face_records(names: Sequence[str], moved: Sequence[str], registrations: Sequence[FaceRegistration],
+def face_records(names: Sequence[str], moved: Collection[str], registrations: Iterable[FaceRegistration | JointFace],
                  before: Sequence[FaceDeviation], after: Sequence[FaceDeviation]) -> list[Record]:
     """The report's ``faces`` of a registration, in the model's order.
 
-    The flag says where the face's shape comes from: ``observed`` by the scan, ``carried`` along with its neighbours, or
-    ``nominal``.
+    The flag says where the face's shape comes from: ``observed`` by the scan, ``bridged`` in a gap of it, ``carried``
+    along with its neighbours, or ``nominal``. The band, in mm, is that of the solve over all faces.
     """
     registered = {item.name: item for item in registrations}
     deviation = {item.name: (item, other) for item, other in zip(before, after, strict=True)}
     records = []
     for name in names:
         entry = registered.get(name)
-        flag = "observed" if entry else "carried" if name in moved else "nominal"
         first, second = deviation.get(name, (None, None))
+        joint = isinstance(entry, JointFace) and name in moved
+        flag = entry.flag if joint else "nominal" if name not in moved else "observed" if entry else "carried"
         records.append({
             "name": name, "lattice": list(entry.lattice) if entry else None, "points": entry.points if entry else 0,
-            "coverage": entry.coverage if entry else 0.0, "flag": flag, "band": None,
+            "coverage": entry.coverage if entry else 0.0, "flag": flag, "band": entry.band if joint else None,
             "deviation_before": figures(first.deviations) if first else None,
             "deviation_after": figures(second.deviations) if second else None})
     return records
@@ -65,6 +67,19 @@ def edge_records(edge_faces: Sequence[Sequence[str]], moved: Sequence[str], obse
             flag = "carried" if set(faces) & (set(moved) | set(observed)) else "nominal"
         records.append({"name": f"Edge{number}", "flag": flag, "band": None})
     return records
+
+
+def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
+    """The report's ``edges`` of a solve over all faces: what each rests on, and its band in mm."""
+    return [{"name": edge.name, "flag": edge.flag, "band": edge.band} for edge in edges]
+
+
+def sheet_record(joint: JointRegistration | None) -> Record:
+    """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, and strain."""
+    if joint is None:
+        return {"thickness": None, "strain": None}
+    thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)
+    return {"thickness": thickness, "strain": joint.strain}
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:

@@ -6,6 +6,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+Progress = Callable[[str], None]
+
 
 class Stopwatch:
     """Times named stages and tells a progress callback what is being done.
@@ -15,7 +17,7 @@ class Stopwatch:
     progress : called with a text at the start of each stage, or None
     """
 
-    def __init__(self, progress: Callable[[str], None] | None = None) -> None:
+    def __init__(self, progress: Progress | None = None) -> None:
         self._progress = progress
         self._stages: dict[str, float] = {}
         self._start = time.perf_counter()

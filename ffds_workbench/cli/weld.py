@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import cli_seams
-from .errors import InputError
-from .output import replacing
-from .report.page import Step, page
-from .scan.units import MILLIMETRES
+from ..errors import InputError
+from ..output import replacing
+from ..report.page import Step, page
+from ..scan.units import MILLIMETRES
+from . import seams as seam_options
 from .terminal import Progress
 
 if TYPE_CHECKING:
-    from . import api
+    from .. import api
 
 DIALECTS = {"kuka": "seams.src", "abb": "seams.mod", "ur": "seams.script"}
 PAGE = "report.html"
@@ -54,7 +54,7 @@ def add(commands: argparse._SubParsersAction) -> None:
                          help="faces to deform (default: every face that the scan observes)")
     command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
                          help="faces that must not move")
-    cli_seams.add_options(command)
+    seam_options.add_options(command)
     command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS),
                          help="default: all three")
     command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for all that comes of it")
@@ -63,12 +63,12 @@ def add(commands: argparse._SubParsersAction) -> None:
 
 def weld(options: argparse.Namespace, progress: Progress) -> str:
     """``ffds weld``: the tables to print."""
-    from . import api
+    from .. import api
 
     if not options.edge and options.auto is None:
         raise InputError("No seam was named: give --edge, or --auto with the distance within which parts count as "
                          "touching.")
-    robot, settings, limits = cli_seams.read_options(options)
+    robot, settings, limits = seam_options.read_options(options)
     folder = make_folder(options.out)
     progress(f"Reading {options.model}")
     model = api.read_model(options.model, options.object)
@@ -92,7 +92,7 @@ def make_folder(path: Path) -> Path:
 def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str, inputs: Sequence[Path],
                 progress: Progress) -> str:
     """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print."""
-    from . import api
+    from .. import api
 
     report, picture = folder / "report.json", folder / "deviation.png"
     progress(f"Writing {folder / as_built}")

@@ -8,11 +8,11 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import InputError
+from ..errors import InputError
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
-    from . import api
+    from .. import api
 
 LIMITS = ("lateral", "normal", "longitudinal", "gap", "opening", "rotation")
 
@@ -106,7 +106,7 @@ def _limit(text: str) -> tuple[str, float]:
 
 def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds seams``: the table to print."""
-    from . import api
+    from .. import api
 
     inputs = [path for path in (options.model, options.nominal, options.bands) if path is not None]
     api.check_seam_outputs(options.out, (options.report, options.picture), inputs)
@@ -127,7 +127,7 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 def read_options(options: argparse.Namespace) -> tuple[api.RobotSettings, api.SeamSettings, api.SeamLimits]:
     """The settings that `add_options` asks for; InputError where they make no sense."""
-    from . import api
+    from .. import api
 
     tool, base = (None if text is None else api.read_frame_choice(text) for text in (options.tool, options.base))
     settings = api.SeamSettings(step=options.step, chord=options.chord, work_angle=math.radians(options.work_angle),
@@ -145,7 +145,7 @@ def _written(options: argparse.Namespace) -> str:
 
 def carry(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds carry``: what was moved, in words."""
-    from . import api
+    from .. import api
 
     if not options.path.is_file():
         raise InputError(f"The path {options.path} does not exist.")

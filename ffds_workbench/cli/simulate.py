@@ -7,11 +7,11 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import InputError
+from ..errors import InputError
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
-    from .scan.sensor import SensorSettings
+    from ..scan.sensor import SensorSettings
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -45,21 +45,21 @@ def add(commands: argparse._SubParsersAction) -> None:
 
 def settings(options: argparse.Namespace) -> SensorSettings:
     """The sensor that the options describe."""
-    from .scan.sensor import SensorSettings, View
+    from ..scan.sensor import SensorSettings, View
 
     shift, angle = (*options.pose_error, 0.0)[:2]
     if options.seed < 0:
         raise InputError(f"A seed is not negative, as {options.seed} is.")
     return SensorSettings(spacing=options.spacing, noise=options.noise, correlation=options.correlation,
-                          views=tuple(View(direction) for direction in options.view), outliers=options.outliers, edge_dropout=options.dropout,
-                          holes=options.holes, table=options.table, pose_error=shift, pose_error_angle=angle,
+                          views=tuple(View(direction) for direction in options.view), outliers=options.outliers,
+                          edge_dropout=options.dropout, holes=options.holes, table=options.table, pose_error=shift, pose_error_angle=angle,
                           seed=options.seed)
 
 
 def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds simulate``: the line to print."""
     sensor = settings(options)
-    from . import api
+    from .. import api
 
     api.check_outputs((options.out, options.truth), [options.model])
     if options.out.suffix.lower() != ".ply":

@@ -16,14 +16,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
-from . import RESOURCES, __version__, cli_seams, cli_simulate, cli_weld
-from .benchmark import NAMES as BENCHMARKS
-from .errors import FfdsError, InputError, RefusedError
-from .scan.units import MILLIMETRES
+from .. import RESOURCES, __version__
+from ..benchmark import NAMES as BENCHMARKS
+from ..errors import FfdsError, InputError, RefusedError
+from ..scan.units import MILLIMETRES
+from . import seams, simulate, weld
 from .terminal import ProgressLine, quiet_libraries
 
 if TYPE_CHECKING:
-    from . import api
+    from .. import api
 
 FAILED, INTERRUPTED = 3, 130
 DEBUG = "FFDS_DEBUG"
@@ -91,9 +92,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     _add_register(commands)
     _add_deviation(commands)
-    cli_simulate.add(commands)
-    cli_seams.add(commands)
-    cli_weld.add(commands)
+    simulate.add(commands)
+    seams.add(commands)
+    weld.add(commands)
     _add_demo(commands)
     _add_benchmark(commands)
     return parser
@@ -114,7 +115,7 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the deviation before and after")
     command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
-                         help="faces to deform (default: every face that the scan observes)")
+                         help="faces to deform, each by itself (default: the whole part)")
     command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
                          help="faces that must not move")
     command.add_argument("--method", choices=["robust", "ffds", "ffd-hsu"], default="robust", help="default: robust")
@@ -122,6 +123,8 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
                          help="control points per face, for instance 10x10 (default: auto)")
     command.add_argument("--source-points", type=_count, default=400, metavar="N",
                          help="source points per face of methods ffds and ffd-hsu (default: 400)")
+    command.add_argument("--isometry", choices=["auto", "on", "off"], default="auto",
+                         help="whether a whole sheet part keeps its lengths (default: decided from the scan)")
     command.set_defaults(run=register)
 
 
@@ -163,14 +166,14 @@ def _count(text: str) -> int:
 
 def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds register``: the table to print."""
-    from . import api
+    from .. import api
 
     inputs = [options.model, *options.scan]
     api.check_outputs((options.out, options.report, options.picture), inputs)
-    api.files.check_output(options.out)
+    api.check_model_output(options.out)
     model, scan = _read(api, options, progress)
     result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
-                          options.source_points, progress)
+                          options.source_points, options.isometry, progress)
     progress(f"Writing {options.out}")
     api.write(result, options.out, options.report, options.picture, inputs)
     return f"{result.table()}\n\n{_written(options.out, options.report, options.picture)}"
@@ -178,7 +181,7 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds deviation``: the table to print."""
-    from . import api
+    from .. import api
 
     inputs = [options.model, *options.scan]
     api.check_outputs((options.report, options.picture), inputs)
@@ -191,25 +194,25 @@ def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds demo``: the main job on the example, and a weld along the rim of its end face."""
-    from . import api
+    from .. import api
 
-    folder = cli_weld.make_folder(options.out)
+    folder = weld.make_folder(options.out)
     example = RESOURCES / "examples"
     progress("Reading the example")
     model = api.read_model(example / "bracket.step")
     scan = api.read_scan(example / "bracket_scan.ply")
     result = api.register(model, scan, progress=progress)
-    wanted = cli_weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
-    text = cli_weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
-    return f"{text}\n\nWritten: {folder / cli_weld.PAGE} and what it shows"
+    wanted = weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
+    text = weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
+    return f"{text}\n\nWritten: {folder / weld.PAGE} and what it shows"
 
 
 def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds benchmark``: run one and say where its tables are."""
-    from . import _freecad
+    from .. import _freecad
 
     _freecad.activate()
-    folder = cli_weld.make_folder(options.out)
+    folder = weld.make_folder(options.out)
     text = importlib.import_module(f"ffds_workbench.benchmark.{options.name}").run(folder, progress)
     return f"{text or ''}\n\nWritten: {folder}".strip()
 
@@ -224,11 +227,3 @@ def _read(api_module: api, options: argparse.Namespace, progress: ProgressLine) 
 def _written(*paths: Path | None) -> str:
     names = [str(path) for path in paths if path is not None]
     return f"Written: {', '.join(names)}" if names else ""
-
-
-if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt:
-        print("ffds: Interrupted, nothing was written.", file=sys.stderr)
-        sys.exit(INTERRUPTED)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The scripting surface: what macros, the command line and FreeCAD's Python console call.
+
+In FreeCAD's Python console, with a part selected or at hand::
+
+    from ffds_workbench import api
+    scan = api.read_scan("scan.ply")                        # points in mm; unit="m" if the file is in metres
+    result = api.register(App.ActiveDocument.Bracket, scan, faces=["Face6"])
+    print(result.table())                                   # deviation and topology, before and after
+    Part.show(result.shape)
+    api.write(result, "as_built.step", report="as_built.json", picture="as_built.png")
+    plan = api.plan_seams(result.shape, auto=0.5, nominal=App.ActiveDocument.Bracket)
+    api.write_seams(plan, ["weld.src", "weld.csv"])
+
+Models are files, shapes or document objects alike; objects are taken where they stand in their document. Errors are
+`InputError` (the request cannot be read) and `RefusedError` (no honest result), each with one sentence that says why.
+"""
+from __future__ import annotations
+
+from .. import _freecad
+
+_freecad.activate()
+
+import FreeCAD  # noqa: E402, F401 (Part needs FreeCAD to be loaded first)
+
+from ..brep.files import Model  # noqa: E402
+from ..brep.simulation import Simulation  # noqa: E402
+from ..errors import FfdsError, InputError, RefusedError  # noqa: E402
+from ..scan.cloud import PointCloud  # noqa: E402
+from ..scan.sensor import SensorSettings, View  # noqa: E402
+from ..seams.carry import carry  # noqa: E402
+from ..seams.measured import SeamLimits  # noqa: E402
+from ..seams.plan import check_seam_outputs, plan_seams, write_seams  # noqa: E402
+from ..seams.programs.moves import RobotSettings, read_frame_choice  # noqa: E402
+from ..seams.settings import SeamSettings  # noqa: E402
+from .deviating import Deviation, deviation  # noqa: E402
+from .inputs import read_model, read_scan  # noqa: E402
+from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation  # noqa: E402
+from .registering import Result, register  # noqa: E402
+from .simulating import simulate  # noqa: E402
+
+__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "RobotSettings",
+           "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "carry", "check_model_output",
+           "check_outputs", "check_seam_outputs", "deviation", "plan_seams", "read_frame_choice", "read_model",
+           "read_scan", "register", "simulate", "write", "write_deviation", "write_seams", "write_simulation"]

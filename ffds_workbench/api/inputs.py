@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the jobs start from: models and scans, as files, FreeCAD objects or arrays."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import Part
+
+from ..brep import files
+from ..brep.files import Model
+from ..errors import InputError
+from ..scan import files as scan_files
+from ..scan.cloud import PointCloud
+
+
+def read_scan(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
+    """Read one scan file, or fuse several of one part; ``unit`` is that of the files: mm, cm, m or in."""
+    return scan_files.read(paths, unit)
+
+
+def read_model(path: str | Path, label: str | None = None) -> Model:
+    """Read a model file; ``label`` picks the object of a FreeCAD document that holds several."""
+    return files.read(path, label)
+
+
+def as_model(model: Model | Part.Shape | object) -> Model:
+    """A model in any of the forms that the jobs take."""
+    return model if isinstance(model, Model) else files.from_object(model)
+
+
+def as_cloud(scan: PointCloud | np.ndarray) -> PointCloud:
+    """A scan in any of the forms that the jobs take."""
+    if isinstance(scan, PointCloud):
+        return scan
+    points = np.asarray(scan, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise InputError(f"A scan is an array of shape (n, 3), not {points.shape}.")
+    finite = np.isfinite(points).all(axis=1)
+    return PointCloud(points[finite], int((~finite).sum()))
+
+
+def box(shape: Part.Shape) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest coordinates of a shape, (3,) each, in mm."""
+    bounds = shape.BoundBox
+    return np.array([bounds.XMin, bounds.YMin, bounds.ZMin]), np.array([bounds.XMax, bounds.YMax, bounds.ZMax])

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the jobs leave behind: files that appear whole or not at all."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import Part
+
+from ..brep import files
+from ..brep.files import Model
+from ..brep.simulation import Simulation
+from ..errors import InputError
+from ..output import check_writable, replacing
+from ..report import picture as drawing
+from ..report import record
+from ..report.deviation import FaceDeviation
+from ..scan.cloud import PointCloud
+from ..scan.sensor.files import write_ply
+from .deviating import Deviation
+from .registering import Result
+
+
+def write(result: Result, out: str | Path, report: str | Path | None = None, picture: str | Path | None = None,
+          inputs: Sequence[str | Path] = ()) -> None:
+    """Write an as-built model (.step, .brep or .FCStd), and beside it its report and picture: all of them or none.
+
+    Raises
+    ------
+    InputError : a destination cannot be written or is one of ``inputs``
+    RefusedError : the disk is full, or the file would not hold the same model
+    """
+    files.check_output(Path(out))
+    panels = [drawing.Panel("Nominal", _all(result.before), _edges(result.nominal.shape)),
+              drawing.Panel("As built", _all(result.after), _edges(result.shape))] if picture else []
+    outputs = _outputs((out, report, picture), inputs)
+    with replacing(*outputs.values()) as temporary:
+        target = dict(zip(outputs, temporary, strict=True))
+        files.write(result.model, target[0])
+        if report is not None:
+            record.write(result.report, target[1])
+        if picture is not None:
+            _draw(target[2], result.nominal, result.scan, result.before, panels)
+
+
+def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,
+                    inputs: Sequence[str | Path] = ()) -> None:
+    """Write the report and the picture of a deviation: both or none. Raises as `write` does."""
+    outputs = _outputs((report, picture), inputs)
+    with replacing(*outputs.values()) as temporary:
+        target = dict(zip(outputs, temporary, strict=True))
+        if report is not None:
+            record.write(result.report, target[0])
+        if picture is not None:
+            panel = drawing.Panel("Deviation from the model", _all(result.faces), _edges(result.model.shape))
+            _draw(target[1], result.model, result.scan, result.faces, [panel])
+
+
+def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
+                     inputs: Sequence[str | Path] = ()) -> None:
+    """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
+    outputs = _outputs((out, truth), inputs)
+    with replacing(*outputs.values()) as temporary:
+        write_ply(temporary[0], simulation.scan.points)
+        if truth is not None:
+            simulation.truth.write(temporary[1])
+
+
+def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:
+    """Refuse destinations that cannot be written, before any work is done (InputError)."""
+    _outputs(paths, inputs)
+
+
+def check_model_output(path: str | Path) -> None:
+    """Refuse the name of an as-built model that no exporter knows (InputError)."""
+    files.check_output(Path(path))
+
+
+def _outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:
+    """The destinations that are asked for, by their place."""
+    outputs = {place: Path(path) for place, path in enumerate(paths) if path is not None}
+    if len({path.resolve() for path in outputs.values()}) < len(outputs):
+        raise InputError("Two outputs have the same name: choose different ones.")
+    for path in outputs.values():
+        check_writable(path, [Path(item) for item in inputs])
+    return outputs
+
+
+def _all(faces: Sequence[FaceDeviation]) -> np.ndarray:
+    return np.concatenate([face.deviations for face in faces])
+
+
+def _edges(shape: Part.Shape) -> list[np.ndarray]:
+    return [np.array([tuple(point) for point in edge.discretize(50)]) for edge in shape.Edges if not edge.Degenerated]
+
+
+def _draw(path: Path, model: Model, scan: PointCloud, faces: Sequence[FaceDeviation],
+          panels: Sequence[drawing.Panel]) -> None:
+    points = scan.points[np.concatenate([face.points for face in faces])]
+    normals = np.concatenate([face.normals for face in faces])
+    title = f"{model.label}: {len(points):,} scan points".replace(",", "\u202f")
+    drawing.draw(path, title, points, normals, panels)

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The job ``register``: from a nominal model and a scan to the as-built model, its certificate and its report."""
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import Part
+
+from ..brep import workpiece
+from ..brep.files import Model
+from ..brep.rebuild import rebuild
+from ..brep.workpiece import Workpiece
+from ..errors import InputError
+from ..registration.joint import JointFace, JointRegistration
+from ..registration.result import FaceRegistration
+from ..report import record, table
+from ..report.certificate import Certificate, boolean_checks, certify
+from ..report.comparison import compare
+from ..report.deviation import FaceDeviation
+from ..report.stopwatch import Progress, Stopwatch
+from ..scan.cloud import PointCloud
+from ..scan.plausibility import check_overlap
+from .inputs import as_cloud, as_model, box
+from .methods import Deformation, Lattice, all_together, each_by_itself
+
+METHODS = ("robust", "ffds", "ffd-hsu")
+ISOMETRY = ("auto", "on", "off")
+
+BOOLEAN_CHECK_SECONDS = 4.0
+"""How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
+without it: it can take minutes."""
+SURFACE_TOLERANCE = 1e-5
+"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """An as-built model and how it came about.
+
+    Attributes
+    ----------
+    model : the as-built shape with the nominal's name and colours
+    nominal : what it was made from
+    scan : what it was made to fit
+    registrations : one per face that the scan deformed
+    joint : the registration of the whole part, where all faces were registered together
+    before, after : deviations of the same scan points from the nominal and from the as-built faces
+    certificate : topology before and after
+    report : the JSON report as a dictionary
+    """
+
+    model: Model
+    nominal: Model
+    scan: PointCloud
+    registrations: tuple[FaceRegistration | JointFace, ...]
+    before: tuple[FaceDeviation, ...]
+    after: tuple[FaceDeviation, ...]
+    certificate: Certificate
+    joint: JointRegistration | None
+    report: dict[str, Any]
+
+    @property
+    def shape(self) -> Part.Shape:
+        """The as-built shape."""
+        return self.model.shape
+
+    def table(self) -> str:
+        """Deviation and topology, before and after, as text."""
+        return table.deviation_table(self.report) + "\n\n" + table.topology_table(self.report["topology"])
+
+
+def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, faces: Sequence[str] | None = None,
+             method: str = "robust", lattice: Lattice = "auto", freeze: Collection[str] = (),
+             source_points: int = 400, isometry: str = "auto", progress: Progress | None = None) -> Result:
+    """Deform faces of a model to a scan; neighbouring faces adapt and the topology stays.
+
+    Parameters
+    ----------
+    model : a `Model`, a shape or a document object
+    scan : a `PointCloud`, or (n, 3) points in mm, aligned with the model
+    faces : names like "Face6", numbered as FreeCAD numbers the shape, each registered by itself; None for the whole
+        part: all faces together with "robust", every face that the scan observes by itself with the other methods
+    method : "robust", "ffds" for the published algorithm, or "ffd-hsu" for a lattice in space around each face
+    lattice : (N_i, N_j) control points per face, or "auto"; "ffds" and "ffd-hsu" then take 10 × 10
+    freeze : names of faces that must not move
+    source_points : of methods "ffds" and "ffd-hsu", on each face
+    isometry : of a whole sheet part: "on" holds it inextensible, "off" does not, "auto" decides from the strain found
+    progress : called with what is being done
+
+    Raises
+    ------
+    InputError : the model, a name, the method or the lattice cannot be used
+    RefusedError : no overlap, too little data, or a result that would break the model
+    """
+    watch = Stopwatch(progress)
+    with watch.stage("read", "Reading the model"):
+        nominal = as_model(model)
+        cloud = as_cloud(scan)
+        part = workpiece.read(nominal.shape)
+        frozen = [part.index(name) for name in dict.fromkeys(freeze)]
+        wanted = None if faces is None else [part.index(name) for name in dict.fromkeys(faces)]
+        _check_request(method, lattice, wanted, frozen, isometry)
+        check_overlap(cloud, *box(nominal.shape))
+    if method == "robust" and wanted is None:
+        found = all_together(part, cloud, freeze, isometry, watch)
+    else:
+        found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch)
+    with watch.stage("rebuild", "Rebuilding the model"):
+        shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
+    with ThreadPoolExecutor(1) as background:
+        checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
+        with watch.stage("certify", "Checking the topology"):
+            certificate = certify(nominal.shape, shape, None)
+            certificate.enforce()
+        with watch.stage("deviation", "Measuring the deviation"):
+            before, after = compare(part, shape, list(found.faces), cloud.points)
+        with watch.stage("certify", "Waiting for the check for Boolean operations"):
+            certificate = _with_checks(certificate, *checks.result())
+    report = _report(part, cloud, found, before, after, certificate, watch)
+    return Result(replace(nominal, shape=shape), nominal, cloud, tuple(found.faces.values()), before, after,
+                  certificate, found.joint, report)
+
+
+def _with_checks(certificate: Certificate, before: int | None, after: int | None) -> Certificate:
+    return Certificate(replace(certificate.before, boolean_check=before),
+                       replace(certificate.after, boolean_check=after))
+
+
+def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],
+                   isometry: str) -> None:
+    if method not in METHODS:
+        raise InputError(f"The method '{method}' is unknown: use one of {', '.join(METHODS)}.")
+    if lattice != "auto" and (isinstance(lattice, str) or min(lattice) < 4):
+        raise InputError(f"The lattice {lattice} is unknown or too small: a cubic lattice has 4 or more control points "
+                         f"in each direction, for instance 10x10.")
+    both = sorted(set(wanted or ()) & set(frozen))
+    if both:
+        raise InputError(f"Face{both[0] + 1} is to be deformed and to be frozen: choose one.")
+    if wanted is not None and not wanted:
+        raise InputError("No face was named.")
+    if isometry not in ISOMETRY:
+        raise InputError(f"The isometry '{isometry}' is unknown: use one of {', '.join(ISOMETRY)}.")
+    together = method == "robust" and wanted is None
+    if together and lattice != "auto":
+        raise InputError("All faces together take their lattices from the data: name a face to choose its lattice.")
+    if not together and isometry != "auto":
+        raise InputError("Isometry couples all faces of a sheet: it needs method robust without named faces.")
+
+
+def _report(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
+            after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch) -> dict[str, Any]:
+    names = [face.name for face in part.faces]
+    moved = [names[index] for index in found.displacements]
+    if found.joint is None:
+        edge_faces = [[names[index] for index in faces] for faces in certificate.before.topology.edge_faces]
+        faces = record.face_records(names, moved, found.faces.values(), before, after)
+        edges = record.edge_records(edge_faces, moved, [item.name for item in found.faces.values()])
+    else:
+        faces = record.face_records(names, moved, found.joint.faces, before, after)
+        edges = record.joint_edge_records(found.joint.edges)
+    return {
+        "faces": faces, "edges": edges,
+        "deviation_before": record.all_figures(before), "deviation_after": record.all_figures(after),
+        "topology": certificate.as_dict(),
+        "scan": record.scan_record(cloud, float(np.median([item.noise for item in found.faces.values()]))),
+        "sheet": record.sheet_record(found.joint),
+        "timing": watch.times()}
