@@ -38,14 +38,15 @@ class ClosedDisplacement:
         return displacement if self.correction is None else displacement + self.correction(points)
 
 
-def closing_displacements(workpiece: Workpiece, displacements: Mapping[int, SplineSurface]) -> dict[int, FaceDisplacement]:
+def closing_displacements(workpiece: Workpiece,
+                          displacements: Mapping[int, SplineSurface]) -> dict[int, FaceDisplacement]:
     """Displacements that agree along every edge, from fields that nearly do.
 
     Parameters
     ----------
     workpiece : the shape
-    displacements : registered displacement of each face that moves, over its own (u, v) in mm. Faces that are not named stay
-        as they are; edges and vertices that they touch are held still
+    displacements : registered displacement of each face that moves, over its own (u, v) in mm. Faces that are not
+        named stay as they are; edges and vertices that they touch are held still
     """
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in displacements}
     rim = agree(workpiece, displacements, {face: max(_SPACING * size, _FINEST) for face, size in sizes.items()})

@@ -24,14 +24,15 @@ def joint_part(workpiece: Workpiece, freeze: Iterable[str] = ()) -> JointPart:
     ------
     InputError : there is no face of such a name
     """
-    adjacency = topology.read(workpiece.shape)
+    adjacency = workpiece.topology
     count = len(workpiece.faces)
     frozen = frozenset(workpiece.index(name) for name in freeze)
     return JointPart(tuple(workpiece.geometry(i) for i in range(count)), shared_edges(workpiece, adjacency),
                      _solids(adjacency.solid_faces, count), frozen)
 
 
-def shared_edges(workpiece: Workpiece, adjacency: topology.Topology, samples: int = EDGE_SAMPLES) -> tuple[SharedEdge, ...]:
+def shared_edges(workpiece: Workpiece, adjacency: topology.Topology,
+                 samples: int = EDGE_SAMPLES) -> tuple[SharedEdge, ...]:
     """Every edge with its parameters on each face that it bounds, a seam twice on the same face."""
     fractions = np.linspace(0.0, 1.0, samples)
     edges = []

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..splines import Array
 from .boundary import Borders
+from .lattice import Index
 from .problem import Problem
 from .raster import Jet, normals
 from .values import CellValues
@@ -44,11 +45,12 @@ def data_equations(problem: Problem, jet: Jet, values: CellValues) -> NormalEqua
     return NormalEquations(blocks, gather(problem, np.matmul(table.T, pull), used))
 
 
-def gather(problem: Problem, loads: Array, spans: Array | slice = slice(None)) -> Array:
+def gather(problem: Problem, loads: Array, spans: Index | slice = slice(None)) -> Array:
     """Sum loads of spans (spans, 16, 3) over the control points: (controls, 3)."""
     controls = problem.lattices.controls[spans].ravel()
     flat = loads.reshape(-1, 3)
-    return np.stack([np.bincount(controls, weights=flat[:, k], minlength=problem.lattices.count) for k in range(3)], axis=1)
+    count = problem.lattices.count
+    return np.stack([np.bincount(controls, weights=flat[:, k], minlength=count) for k in range(3)], axis=1)
 
 
 def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
@@ -71,7 +73,7 @@ def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
 
 def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array,
                     thickness: float) -> NormalEquations:
-    """Bending, couplings and, with a weight per span, isometry at the current shape; ``thickness`` multiplies its rows."""
+    """Bending, couplings and isometry (weight per span) at the current shape; ``thickness`` multiplies its rows."""
     settings, stiffness = problem.settings, problem.stiffness
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)

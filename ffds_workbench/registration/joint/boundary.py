@@ -107,12 +107,13 @@ def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_po
              for k, (seen, other) in enumerate(pairs)]
     rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
     samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
-    direction, offset, weight = (np.concatenate([side[k][r] for side, r in zip(found, rows, strict=True)]) for k in range(3))
+    direction, offset, weight = (np.concatenate([side[k][r] for side, r in zip(found, rows, strict=True)])
+                                 for k in range(3))
     return Borders(samples, direction, offset, weight)
 
 
-def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array, sharp: NDArray[np.bool_],
-              control_points: Array, noise: float) -> tuple[Array, Array, Array]:
+def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array,
+              sharp: NDArray[np.bool_], control_points: Array, noise: float) -> tuple[Array, Array, Array]:
     """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
     count = len(edges.edge)
     place = seen.nominal[0] + seen.displacement(control_points)

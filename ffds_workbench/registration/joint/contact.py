@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where solids of an assembly touch: what nothing observes of one (a pipe's turn about its axis) follows its neighbour."""
+"""Where solids of an assembly touch: what nothing observes of one (a pipe about its axis) follows its neighbour."""
 from __future__ import annotations
 
 import numpy as np

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
@@ -37,7 +38,7 @@ class Frames:
     step: Array
     form: Array
     size: Array
-    allowed: Array
+    allowed: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rows that tie control points of different faces: shared edges, poles, sheet thickness, edge angles, frozen faces, pose.
+"""Rows that tie control points of different faces: shared edges, poles, thickness, edge angles, frozen faces, pose.
 
 All of them are linear in the displacement with constant coefficients; where a rotation enters, it is the current one,
 on the right-hand side.
@@ -94,8 +94,8 @@ class Couplings:
         return np.einsum("nx,nx->n", gap, normal)
 
 
-def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix, settings: JointSettings,
-                   information: float) -> Couplings:
+def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix,
+                   settings: JointSettings, information: float) -> Couplings:
     """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs, ``contacts`` the rows of
     `contact_rows`."""
     count = lattices.count
@@ -106,13 +106,13 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
                         / settings.thickness_sigma**2)
     dihedral_rows = _dihedral_rows(edges, lattices)
-    dihedral_weight = edges.length / np.mean(edges.length) / settings.dihedral_sigma**2 if len(edges.edge) else np.zeros(0)
+    dihedral_weight = edges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
     thickness = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
-    return Couplings(scalar.tocsr(), thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(), dihedral_rows,
-                     dihedral_weight)
+    return Couplings(scalar.tocsr(), thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(),
+                     dihedral_rows, dihedral_weight)
 
 
 def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
@@ -131,7 +131,9 @@ def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, inform
 
 
 def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
-    face, uv, edge, length, direction = [[], []], [[], []], [], [], []
+    face: tuple[list[Index], list[Index]] = ([], [])
+    uv: tuple[list[Array], list[Array]] = ([], [])
+    edge, length, direction = [], [], []
     for number, shared in enumerate(part.edges):
         if shared.degenerate or len(shared.faces) < 2:
             continue

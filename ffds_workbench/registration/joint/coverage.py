@@ -18,7 +18,7 @@ _NEAR = 1.0
 _SPACINGS = 3.0
 _SEEN_FACE = 0.05
 _EDGE_NEAR = 2.0
-"""Observed cells this near (mm, or twice the trim margin) make an edge observed: none can lie nearer than the margin."""
+"""Observed cells this near (mm, or twice the trim margin) make an edge observed: none lie nearer than the margin."""
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,8 @@ def _best_separator(graph: csr_matrix, position: Array, nodes: Index) -> tuple[I
     local = graph[nodes][:, nodes]
     centred = position[nodes] - position[nodes].mean(axis=0)
     axes = np.linalg.svd(centred, full_matrices=False)[2]
-    best, sides, least = nodes, (), float(len(nodes))
+    best, least = nodes, float(len(nodes))
+    sides: tuple[Index, ...] = ()
     for coordinate in (centred @ axes.T).T:
         for cut in np.quantile(coordinate, _CUTS):
             low = coordinate <= cut

@@ -22,7 +22,7 @@ _OFF = 1e-3
 
 
 def observed_strain(problem: Problem, state: State) -> float:
-    """Rms strain of the mid surface over the spans of sheets (of all faces, if there is no sheet) that the scan observes."""
+    """Rms strain of the mid surface over the observed spans of sheets (of all faces, if there is no sheet)."""
     stiffness, lattices = problem.stiffness, problem.lattices
     thickness = problem.couplings.pairs.of_face[lattices.face_of_span]
     jet = stiffness.places.displaced(lattices, state.control_points, 3)
@@ -43,7 +43,7 @@ def judge_stretch(problem: Problem, state: State, stage: Stage) -> State:
     settings = problem.settings
     if stage.soft and state.strain:
         return state
-    strain = observed_strain(problem, state) if stage.soft and state.values is not None else 0.0
+    strain = observed_strain(problem, state) if stage.soft else 0.0
     stretched = {"on": 0.0, "off": 1.0}.get(settings.isometry)
     if stretched is None:
         stretched = float(np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1))

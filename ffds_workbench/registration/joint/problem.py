@@ -99,11 +99,13 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / statistics.noise**2)
-    pattern = Pattern(lattices, (couplings.scalar, couplings.thickness, _nodes_of(couplings.dihedral)), _positions(lattices, cells))
+    coupled = couplings.scalar, couplings.thickness, _nodes_of(couplings.dihedral)
+    pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
-    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, np.where(cells.inside, area, 0.0), stiffness, couplings,
-                   pattern, pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
+    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
+                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
+                   pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
                    pattern.from_scalar(couplings.thickness), pattern.from_vector(couplings.dihedral),
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))

@@ -7,6 +7,7 @@ matrix product with one table for all spans.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +70,7 @@ class Places:
     outward: Array
 
     def displaced(self, lattices: Lattices, control_points: Array, orders: int = 6) -> Jet:
-        """Nominal + displacement for control points (controls, 3): positions and the first ``orders`` of `DERIVATIVES`."""
+        """Nominal + displacement of control points (controls, 3): the first ``orders`` of `DERIVATIVES`."""
         gathered = control_points[lattices.controls]
         count, k = self.inside.shape
         moved = np.matmul(self.tables[:orders].reshape(-1, 16), gathered).reshape(count, orders, k, 3)
@@ -101,7 +102,7 @@ def make_places(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -
     return Places(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
 
 
-def _by_span(grid: Array, nu: int, nv: int, m: int) -> Array:
+def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
     rest = grid.shape[2:]
     blocks = grid.reshape(nu, m, nv, m, *rest).swapaxes(1, 2)
     return blocks.reshape(nu * nv, m * m, *rest)

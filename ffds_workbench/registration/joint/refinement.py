@@ -28,13 +28,14 @@ def finer_faces(problem: Problem, state: State) -> dict[int, int]:
         return {}
     ratio, face = patch_ratios(problem, state)
     judged = [index for index in range(len(problem.part.faces)) if (face == index).sum() >= _FEWEST_PATCHES]
-    chosen = [index for index in judged if ratio[face == index].mean() > _EXCESS + 2 * np.sqrt(2 / (face == index).sum())]
+    chosen = [index for index in judged
+              if ratio[face == index].mean() > _EXCESS + 2 * np.sqrt(2 / (face == index).sum())]
     # Where all faces ask, it is the sensor's noise that is smooth, not the shape that is rough.
     return {} if len(chosen) > _SENSOR * len(judged) else dict.fromkeys(chosen, 2)
 
 
 def patch_ratios(problem: Problem, state: State) -> tuple[Array, Array]:
-    """Squared means of what is left over patches of cells, over their variance from noise, and the patches' faces: (n,)."""
+    """Squared means of what is left in patches of cells over their variance from noise, and the faces: (n,) each."""
     per_span = int(np.sqrt(problem.cells.inside.shape[1]))
     size = max(1, per_span // _PATCHES)
     count = per_span // size
@@ -66,8 +67,9 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
     spans = fine.lattices.face_of_span
-    isometry = np.array([state.isometry[coarse.lattices.face_of_span == face][0] for face in range(len(coarse.part.faces))])
-    return replace(state, control_points=control_points, factor=None, isometry=isometry[spans])
+    first = [lattice.first_span for lattice in coarse.lattices.faces]
+    return replace(state, control_points=control_points, factor=None, nearest=None,
+                   isometry=state.isometry[first][spans])
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

@@ -46,7 +46,8 @@ class JointFace:
     @property
     def lattice(self) -> tuple[int, int]:
         """(N_i, N_j), the number of control points in u and in v."""
-        return self.displacement.control_points.shape[:2]
+        count_u, count_v = self.displacement.control_points.shape[:2]
+        return count_u, count_v
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ class EdgeRegistration:
 
 @dataclass(frozen=True)
 class SolidMotion:
-    """How one solid moved as a whole: ``T_asbuilt_nominal`` (4, 4), and the rms in mm of what is left as deformation."""
+    """How a solid moved as a whole, ``T_asbuilt_nominal`` (4, 4), and the rms in mm of the deformation that is left."""
 
     T_asbuilt_nominal: Array
     deformation: float

@@ -58,7 +58,7 @@ SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 
 
 
 def stages(schedule: tuple[Stage, ...], reach: float) -> tuple[Stage, ...]:
-    """The schedule for a scan that lies up to ``reach`` mm away: wider gates and more steps in the stages before the soft."""
+    """The schedule for a scan up to ``reach`` mm away: wider gates and more steps before the soft stages."""
     scale = max(1.0, reach / schedule[0].gate)
     return tuple(stage if stage.soft else replace(stage, gate=stage.gate * scale,
                                                   iterations=int(np.ceil(stage.iterations * scale)))
@@ -74,9 +74,9 @@ class JointSettings:
     span : size of a lattice span in mm where the scan is dense
     turning : largest turn of the normal over a span, in rad
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
-    curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; the bending weight is 1/(κ₀ l)²
+    curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; bending weighs 1/(κ₀ l)²
     isometry_weight, isometry_weight_soft : weight of the strain per mm² for isometric and for stretched parts
-    thickness_sigma, thickness_sigma_soft : how well a sheet keeps its thickness, for isometric and for stretched parts, in mm
+    thickness_sigma, thickness_sigma_soft : how well a sheet keeps its thickness, isometric or stretched, in mm
     edge_sigma : how well faces agree along an edge, in mm
     dihedral_sigma : how well an edge keeps its angle, in rad
     pose_sigma : how far a solid may sit from its place, in mm

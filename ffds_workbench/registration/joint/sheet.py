@@ -44,7 +44,7 @@ class SheetPairs:
 
 def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: Places,
                gauss: Places, area: Array) -> SheetPairs:
-    """Pairs from the Gauss places (with their area elements, (spans, k)) to the cells opposite, through the material."""
+    """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material."""
     found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []

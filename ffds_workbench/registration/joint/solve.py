@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The joint solve: scan points pull the displacement lattices of all faces of a part at once.
 
-One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's step 3–5
-(closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later, so that trust is earned in order.
+One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's steps
+3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned in order.
 """
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 """Where the joint solve stands: the displacement, and what the last iteration learnt."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -12,7 +12,7 @@ from ..splines import Array
 from .cholesky import FrontCholesky
 from .lattice import Index
 from .problem import Problem
-from .values import CellValues
+from .values import CellValues, nothing
 
 _TYPICAL = 0.75
 """Quantile of the distances from the nominal part that tells how far the part has moved."""
@@ -30,12 +30,12 @@ class State:
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     isometry : (spans,) weight of the strain per mm²
+    values : of the last iteration
     thickness : multiplies the weight of the sheets' thickness
     strain : rms strain found on observed faces
     near : scan points near the edges, once they are needed
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     factor : of an earlier normal matrix; after the last stage of one with all data
-    values : of the last iteration
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
     """
@@ -44,12 +44,12 @@ class State:
     noise: Array
     reach: float
     isometry: Array
+    values: CellValues
     thickness: float = 1.0
     strain: float = 0.0
-    near: Array | None = None
+    near: Array = field(default_factory=lambda: np.zeros((0, 3)))
     nearest: Index | None = None
     factor: FrontCholesky | None = None
-    values: CellValues | None = None
     last_step: float = np.inf
     iterations: int = 0
 
@@ -67,9 +67,10 @@ def start(problem: Problem) -> State:
     distance = cKDTree(position).query(problem.sample, distance_upper_bound=size, workers=-1)[0]
     typical = float(np.sort(distance)[int(_TYPICAL * (len(distance) - 1))])
     if not np.isfinite(typical):
-        raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; check the "
-                           "unit of the scan and align it first.")
+        raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
+                           "check the unit of the scan and align it first.")
     faces = len(problem.part.faces)
-    return State(np.zeros((problem.lattices.count, 3)), np.full(faces, problem.statistics.noise),
+    noise = np.full(faces, problem.statistics.noise)
+    return State(np.zeros((problem.lattices.count, 3)), noise,
                  max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
-                 np.zeros(len(problem.lattices.controls)))
+                 np.zeros(len(problem.lattices.controls)), nothing(problem.distance.size, noise))

@@ -14,7 +14,8 @@ from ..splines import Array
 from .lattice import Lattices
 from .raster import Places, normals
 
-GAUSS_PLACES, _gauss_weights = (np.polynomial.legendre.leggauss(3)[0] + 1) / 2, np.polynomial.legendre.leggauss(3)[1] / 2
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
+GAUSS_PLACES = (_NODES + 1) / 2
 _PAIRS = ((0, 0), (0, 1), (1, 1))
 _NORM = np.array([1.0, np.sqrt(2.0), 1.0])
 _OUTSIDE = 1e-3
@@ -115,9 +116,9 @@ def make_stiffness(lattices: Lattices, places: Places) -> Stiffness:
     hessian = np.matmul(tensor, covariant)
     form = np.einsum("skpx,skx->skp", seconds, normal)
     curvature = np.einsum("skpq,skq->skp", tensor, form)
-    weight = np.outer(_gauss_weights, _gauss_weights).ravel() * area_element * lattices.step.prod(axis=1)[:, None]
-    return Stiffness(places, np.where(places.inside, weight, 0.0), np.where(places.inside, 1.0, _OUTSIDE) * weight, slope,
-                     hessian, curvature, normal, np.matmul(to_frame, tangents))
+    weight = 0.25 * np.outer(_WEIGHTS, _WEIGHTS).ravel() * area_element * lattices.step.prod(axis=1)[:, None]
+    return Stiffness(places, np.where(places.inside, weight, 0.0), np.where(places.inside, 1.0, _OUTSIDE) * weight,
+                     slope, hessian, curvature, normal, np.matmul(to_frame, tangents))
 
 
 def _frame(tangents: Array) -> Array:

@@ -2,7 +2,10 @@
 """Turns the last state of the joint solve into its result, or refuses it."""
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import RefusedError
 from ..splines import Array
@@ -21,6 +24,7 @@ _NOT_CONVERGED = 0.5
 _FEWEST_USED = 50
 _LEAST_SHARE = 0.02
 _COLLAPSED = 0.1
+Flags = NDArray[np.str_]
 
 
 def refuse_bad(problem: Problem, state: State) -> None:
@@ -32,17 +36,18 @@ def refuse_bad(problem: Problem, state: State) -> None:
     moved = float(np.linalg.norm(jet.position[inside] - position, axis=1).max())
     used = int(state.values.count.sum())
     if used < _FEWEST_USED or used < _LEAST_SHARE * len(problem.scan):
-        raise RefusedError(f"Only {used} of {len(problem.scan)} scan points lie near the part: check the unit of the scan and "
-                           "align it first.")
+        raise RefusedError(f"Only {used} of {len(problem.scan)} scan points lie near the part: check the unit of the "
+                           "scan and align it first.")
     if not np.isfinite(moved) or moved > size:
-        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({size:.0f} mm): align the scan "
-                           "first.")
+        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({size:.0f} mm): "
+                           "align the scan first.")
     if state.last_step > _NOT_CONVERGED:
-        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan does not "
-                           "hold the part; align it first, or freeze faces.")
-    area = normals(jet, problem.cells.outward)[1]
+        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
+                           "does not hold the part; align it first, or freeze faces.")
+    normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
-    turned = np.einsum("skx,skx->sk", normals(jet, problem.cells.outward)[0], _turned(problem, jet.position, nominal_normal))
+    expected = _turned(problem, jet.position, nominal_normal)
+    turned = np.einsum("skx,skx->sk", normal, expected)
     folded = inside & ((turned <= 0) | (area < _COLLAPSED * nominal_area))
     if folded.any():
         face = problem.part.faces[problem.lattices.face_of_span[np.flatnonzero(folded.any(axis=1))[0]]].name
@@ -75,6 +80,7 @@ def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
+    assert state.factor is not None
     inverse = state.factor.inverse_blocks()
     seen = coverage(problem, state.values)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
@@ -105,7 +111,7 @@ def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
     gap_inside = seen.gap_of(face, places.nominal.position[span, place])
     gap = np.zeros(places.inside.shape)
     gap[span, place] = gap_inside
-    bands = normal_bands(problem, inverse, places.tables[0], normal, gap)[span, place]
+    bands = normal_bands(problem, inverse, places.tables[0], normal, gap, _border(problem))[span, place]
     flags = seen.flags(gap_inside, face, 2 * seen.near)
     points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
     result = []
@@ -115,6 +121,13 @@ def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
                                 float(seen.share[index]), float(state.noise[index]), _most(flags[own]),
                                 _rms(bands[own]), uv[own], bands[own], flags[own]))
     return tuple(result)
+
+
+def _border(problem: Problem) -> Array:
+    """Distance in mm of the Gauss places from the border of their face, that of the cells around them: (spans, k)."""
+    per_span = int(np.sqrt(problem.cells.inside.shape[1]))
+    cell = np.floor(problem.stiffness.places.local * per_span).astype(int)
+    return problem.distance[:, cell[:, 0] * per_span + cell[:, 1]]
 
 
 def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[EdgeRegistration, ...]:
@@ -133,7 +146,8 @@ def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
     result = []
     for index, edge in enumerate(part.edges):
         own = number == index
-        result.append(EdgeRegistration(edge.name, points[own], bands[own], flags[own], _most(flags[own]), _rms(bands[own])))
+        result.append(EdgeRegistration(edge.name, points[own], bands[own], flags[own], _most(flags[own]),
+                                       _rms(bands[own])))
     return tuple(result)
 
 
@@ -144,18 +158,18 @@ def _directions(points: Array, number: Index) -> Array:
     return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
 
 
-def _better(first: Array, second: Array) -> Array:
+def _better(first: Flags, second: Flags) -> Flags:
     """The stronger of two flags: an edge is observed if either of its faces is observed there."""
     order = {OBSERVED: 0, BRIDGED: 1, CARRIED: 2}
     rank = np.minimum([order[f] for f in first], [order[f] for f in second])
     return np.array([OBSERVED, BRIDGED, CARRIED])[rank]
 
 
-def _most(flags: Array) -> Flag:
+def _most(flags: Flags) -> Flag:
     if not len(flags):
-        return CARRIED
+        return "carried"
     names, count = np.unique(flags, return_counts=True)
-    return str(names[np.argmax(count)])  # type: ignore[return-value]
+    return cast(Flag, str(names[np.argmax(count)]))
 
 
 def _rms(bands: Array) -> float:

@@ -26,7 +26,8 @@ class Pattern:
         pattern = (meets.T @ meets).tocsr()
         for matrix in couplings:
             other = matrix.tocsr()
-            pattern = pattern + csr_matrix((np.ones(other.nnz, dtype=np.int32), other.indices, other.indptr), other.shape)
+            ones = np.ones(other.nnz, dtype=np.int32)
+            pattern = pattern + csr_matrix((ones, other.indices, other.indptr), other.shape)
         pattern.sort_indices()
         self.count = n
         self.indptr, self.indices = pattern.indptr, pattern.indices
@@ -47,13 +48,13 @@ class Pattern:
 
     def from_spans(self, blocks: Array) -> Array:
         """Sum up symmetric 16 × 16 blocks of spans: (spans, 16, 16) to (size,)."""
-        return np.bincount(self.span_position, weights=blocks.ravel(), minlength=self.size)
+        return np.bincount(self.span_position, weights=blocks.ravel(), minlength=self.size).astype(float)
 
     def from_scalar(self, matrix: spmatrix) -> Array:
         """Values of a scalar (controls, controls) matrix on the pattern: (size,)."""
         coo = matrix.tocoo()
-        return np.bincount(self.position(coo.row.astype(np.intp), coo.col.astype(np.intp)), weights=coo.data,
-                           minlength=self.size)
+        position = self.position(coo.row.astype(np.intp), coo.col.astype(np.intp))
+        return np.bincount(position, weights=coo.data, minlength=self.size).astype(float)
 
     def from_vector(self, matrix: spmatrix) -> Array:
         """Values of a (3 controls, 3 controls) matrix on the pattern: (size, 3, 3)."""

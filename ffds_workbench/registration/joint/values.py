@@ -34,6 +34,11 @@ class CellValues:
     noise: Array
 
 
+def nothing(cells: int, noise: Array) -> CellValues:
+    """The values before anything was matched."""
+    return CellValues(np.zeros(cells), np.zeros(cells), np.zeros(cells), noise)
+
+
 def medians(found: Correspondence, cells: int, noise: Array, face_of_cell: Index) -> CellValues:
     """Median height of every cell, weighted 0.64 n/σ² (the median's efficiency on Gaussian noise)."""
     order = np.lexsort((found.height, found.cell))
