@@ -2,7 +2,7 @@
 """Foot points: the (u, v) of the surface point below a scan point, and the signed height of the scan point over it."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,6 +21,7 @@ Locator = Callable[[Array], tuple]
 
 _CHUNK = 16384
 _MOST_VOXELS = 262144
+_COLUMNS = ("index", "x", "y", "height")
 _LONGEST_STEP = 4.0
 _LEAST_SPREAD = 0.2
 """Foot points closer to the centre of curvature than this share of the radius are not unique enough to be used."""
@@ -61,7 +62,7 @@ class SurfaceCoordinates:
     def on_face(self, raster: Raster, margin: float) -> SurfaceCoordinates:
         """Those whose foot point lies inside the trims, at least ``margin`` mm from them."""
         cell, dx, dy = self.in_cell
-        slope_x, slope_y = raster.gradient(raster.depth)
+        slope_x, slope_y = raster.depth_slopes
         depth = raster.depth[cell] + slope_x[cell] * dx + slope_y[cell] * dy
         return self.part(np.flatnonzero(depth >= margin))
 
@@ -71,18 +72,24 @@ class SurfaceCoordinates:
             return self
         return self.part(np.random.default_rng(0).integers(len(self.x), size=most))
 
-    def part(self, rows: Index) -> SurfaceCoordinates:
+    def chunks(self) -> Iterator[SurfaceCoordinates]:
+        """All of them, piece by piece, small enough to stay in the processor's cache."""
+        for first in range(0, len(self.x), _CHUNK):
+            yield self.part(slice(first, first + _CHUNK))
+
+    def part(self, rows: Index | slice) -> SurfaceCoordinates:
         """Those in the given rows."""
         return SurfaceCoordinates(self.index[rows], self.x[rows], self.y[rows], self.height[rows], self.shape)
 
 
-def surface_coordinates(raster: Raster, points: Array, reach: float) -> SurfaceCoordinates:
+def surface_coordinates(raster: Raster, points: Array, reach: float, margin: float | None = None) -> SurfaceCoordinates:
     """Foot points of all scan points within ``reach`` of the face's parameter range, linear in the scan.
 
     Parameters
     ----------
     points : (n, 3) in mm
     reach : largest |height| in mm
+    margin : if given, foot points off the trimmed face or nearer than this (mm) to a trim are left out
 
     Notes
     -----
@@ -100,9 +107,11 @@ def surface_coordinates(raster: Raster, points: Array, reach: float) -> SurfaceC
                 valid &= (a >= 0) & (a < count)
         chosen = np.flatnonzero(valid)
         index = chosen if index is None else index[chosen]
-        kept.append((index + first, x[chosen], y[chosen], height[chosen]))
-    index, x, y, height = (np.concatenate(column) for column in zip(*kept, strict=True))
-    return SurfaceCoordinates(index, raster.wrapped(x, 0), raster.wrapped(y, 1), height, raster.shape)
+        found = SurfaceCoordinates(index + first, raster.wrapped(x[chosen], 0), raster.wrapped(y[chosen], 1),
+                                   height[chosen], raster.shape)
+        kept.append(found if margin is None else found.on_face(raster, margin))
+    index, x, y, height = (np.concatenate([getattr(found, name) for found in kept]) for name in _COLUMNS)
+    return SurfaceCoordinates(index, x, y, height, raster.shape)
 
 
 def _flat_locator(raster: Raster) -> Locator:

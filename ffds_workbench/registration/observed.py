@@ -88,7 +88,7 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 
 def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _Candidate | None:
     raster = make_raster(face, _CELLS)
-    points = surface_coordinates(raster, scan, reach).on_face(raster, 0.0)
+    points = surface_coordinates(raster, scan, reach, 0.0)
     points = points.part(np.flatnonzero(facing(raster, points, normals[points.index])))
     if len(points.x) < _LEAST_POINTS:
         return None

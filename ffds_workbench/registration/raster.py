@@ -75,6 +75,11 @@ class Raster:
                                self.curvature.T, np.stack(steps), np.indices(self.shape).reshape(2, -1) + 0.5])
 
     @cached_property
+    def depth_slopes(self) -> tuple[Array, Array]:
+        """Derivatives of ``depth`` in u and in v, in mm per cell."""
+        return self.gradient(self.depth)
+
+    @cached_property
     def turn(self) -> tuple[float, float]:
         """How far the normal turns from side to side of the face, in u and in v, in rad; at most a full turn."""
         grid = self.normal.reshape(*self.shape, 3)

@@ -100,6 +100,17 @@ class _Graph:
     usable: NDArray[np.bool_]
 
 
+@dataclass(frozen=True)
+class _Cells:
+    """Data against a surface, per cell (m·n,): sums of weights and of weighted residuals, and the number of points with
+    weight; and the absolute residuals of some of them."""
+
+    weight: Array
+    moment: Array
+    count: Array
+    spread: Array
+
+
 class RasterFit:
     """Fits displacements of one control lattice on one raster; data in ``ignored`` cells, (m·n,), are left out."""
 
@@ -135,20 +146,14 @@ class RasterFit:
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
         """
         graph = self._graph(state)
-        cell, residual, weight = self._weighed(graph, data, max(gate, _NOISE_CUT * noise))
-        cells = len(self.raster.inside)
-        total = np.where(self.ignored, 0.0, np.bincount(cell, weight, cells))
-        residual[weight == 0] = 0
-        mean = np.divide(np.bincount(cell, weight * residual, cells), total, out=np.zeros(cells), where=total > 0)
-        some = slice(None, None, max(1, len(residual) // self.settings.sample))
-        spread = np.abs(residual[some][weight[some] > 0])
-        new_noise = min(1.4826 * float(np.median(spread)), _MOST_NOISIER * noise) if len(spread) else noise
-        certainty = np.where(graph.usable, total, 0.0) / max(noise, LEAST_NOISE) ** 2
+        seen = self._cells(graph, data, max(gate, _NOISE_CUT * noise))
+        mean = np.divide(seen.moment, seen.weight, out=np.zeros_like(seen.weight), where=seen.weight > 0)
+        certainty = np.where(graph.usable, seen.weight, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
         control_points = self._solve(row, target, certainty, stiffness)
-        points = np.bincount(cell, weight > 0, cells)[~self.ignored].sum()
-        return self._state(control_points, total, int(points), new_noise)
+        new_noise = min(1.4826 * float(np.median(seen.spread)), _MOST_NOISIER * noise) if len(seen.spread) else noise
+        return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
     def look(self, state: State, layers: Layers, gate: float) -> tuple[Array, Array]:
         """Heights of layers over the surface of a state, and their weights about it."""
@@ -186,6 +191,21 @@ class RasterFit:
         below = raster.cell(x, y)
         cosine = dot(normal, raster.normal[np.where(below >= 0, below, cells)])
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
+
+    def _cells(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> _Cells:
+        """Weigh the data and sum them up cell by cell."""
+        cells = len(self.raster.inside)
+        sums, spread = np.zeros((3, cells)), []
+        parts = data.chunks() if isinstance(data, SurfaceCoordinates) else (data,)
+        every = max(1, len(data.x) // self.settings.sample)
+        for part in parts:
+            cell, residual, weight = self._weighed(graph, part, gate)
+            residual[weight == 0] = 0
+            for total, values in zip(sums, (weight, weight * residual, weight > 0), strict=True):
+                total += np.bincount(cell, values, cells)
+            spread.append(np.abs(residual[::every][weight[::every] > 0]))
+        sums[:, self.ignored] = 0
+        return _Cells(*sums, np.concatenate(spread) if spread else np.zeros(0))
 
     def _weighed(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> tuple[Index, Array, Array]:
         """Material cell, residual and weight of scan points or layers."""

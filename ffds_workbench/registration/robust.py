@@ -49,7 +49,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     """
     raster = make_raster(face)
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
-    points = surface_coordinates(raster, scan, settings.reach).on_face(raster, margin)
+    points = surface_coordinates(raster, scan, settings.reach, margin)
     _check_points(face, points, settings)
     layers = dense_layers(raster, points.sample(settings.sample))
     if np.mean(~layers.thin) > _MANY_WALLS and len(points.x) <= _MOST_NORMALS:
