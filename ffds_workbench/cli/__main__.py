@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""``python -m ffds_workbench.cli``, which the launcher runs."""
+"""``python -m ffds_workbench.cli``, which the launcher runs; an interruption counts from the first import on."""
 import sys
 
-from .main import INTERRUPTED, main
+try:
+    from .main import main
 
-if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt:
-        print("ffds: Interrupted, nothing was written.", file=sys.stderr)
-        sys.exit(INTERRUPTED)
+    sys.exit(main())
+except KeyboardInterrupt:
+    print("ffds: Interrupted, nothing was written.", file=sys.stderr)
+    sys.exit(130)

@@ -9,7 +9,7 @@ import FreeCAD
 import Part
 import pytest
 
-from ffds_workbench.cli import main
+from ffds_workbench.cli.main import main
 
 HEAD = ("s,x,y,z,tx,ty,tz,n1x,n1y,n1z,n2x,n2y,n2z,qx,qy,qz,qw,gap,band,flag,curvature,work_angle,travel_angle,"
         "lateral,normal,longitudinal,opening_angle,torch_rotation")

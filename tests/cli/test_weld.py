@@ -9,7 +9,7 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench.cli import main
+from ffds_workbench.cli.main import main
 
 
 @pytest.fixture
