@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -17,7 +17,7 @@ from .sketch import Plane, Sketch, find_table, sketch_of, thin
 from .symmetry import Symmetry, symmetry_of
 from .target import Target
 from .units import plausible_scales, unit_name
-from .verify import Evidence, examine, is_rough, seen_side
+from .verify import Evidence, examine, facing_normals, is_rough, seen_side
 
 
 
@@ -46,6 +46,9 @@ class Stage:
 _THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
              Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
 _QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 6, 0.1), Stage(250, 0.07, 0.03, 6, 0.03, 2, 0.05))
+_LOCAL = (Stage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), Stage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
+_AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
+"""How far, in rad and as a share of the part's size, the surroundings of the best pose are searched once more."""
 _QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL, _QUICK_POLISH = 12, 0.5, 900, 20_000, 5_000
 _CLEARLY_RIGHT = 0.75
 """Score from which a quick answer is taken."""
@@ -63,7 +66,7 @@ _MARGIN = 0.06
 """Poses whose scores differ by less than this share of what is left unexplained fit alike."""
 _REACH = 0.02
 """Distance within which a point counts as on the part, as a share of the part's size."""
-_SAME_TURN, _SAME_SHIFT = 0.035, 0.015
+_SAME_TURN, _SAME_SHIFT = 0.07, 0.03
 """Poses closer than this (rad, share of the part's size) are one."""
 
 
@@ -122,6 +125,7 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
     if len(sketch.points) < _FEWEST:
         return _no_answer(f"fewer than {_FEWEST} points of the scan belong together")
     verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
+    verified += _search(target, sketch, table, _around(target, sketch, _best(verified, mode).pose), _LOCAL, generator)
     best = _best(verified, mode)
     pose = _polish(target, sketch, best)
     best = Verified(pose, examine(target, sketch, pose, _turn(best, pose), table), _turn(best, pose))
@@ -173,6 +177,14 @@ def _starts(target: Target, sketch: Sketch, mode: str) -> Array:
     return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in centres])
 
 
+def _around(target: Target, sketch: Sketch, pose: Array) -> Array:
+    """Poses a little turned and shifted from one that may have settled beside the right one; (k, 4, 4)."""
+    place = apply(pose, sketch.points).mean(axis=0)
+    rotations = _turns_up_to(_AROUND_TURN, _AROUND_ROTATIONS)
+    shifts = _AROUND_SHIFT * target.size * np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
+    return np.concatenate([motion(rotations, place + shift - rotations @ place) for shift in shifts]) @ pose
+
+
 def _centres(points: Array, size: float, most: int = 5) -> Array:
     """Where the part may be in the scan: the centroid, or if the scan is larger than the part, places spread over it."""
     middle = points.mean(axis=0)
@@ -193,13 +205,16 @@ def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, 
             generator: np.random.Generator) -> list[Verified]:
     """The most promising poses, refined and verified."""
     share = np.bincount(sketch.piece) / len(sketch.piece)
-    pieces = max(1, int((share[:2] > _MAJOR).sum()))
+    sided = not is_rough(target, sketch)
+    pieces = max(1, int((share[:2] > _MAJOR).sum())) if sided else 1
     field, size = field_of(target), target.size
     candidates = Candidates.all_signs(starts, pieces)
+    if not sided:
+        candidates = candidates[candidates.signs[:, 0] > 0]
     for stage in stages:
         chosen = generator.choice(len(sketch.points), min(stage.points, len(sketch.points)), replace=False)
         piece = np.where(sketch.piece[chosen] < pieces, sketch.piece[chosen], 0)
-        probe = Probe(sketch.points[chosen], sketch.normals[chosen], piece)
+        probe = Probe(sketch.points[chosen], sketch.normals[chosen], piece, sided)
         gates = size * np.geomspace(stage.widest, stage.closest, stage.steps)
         candidates = improve(field, probe, candidates, gates)
         score = scores(field, probe, candidates, stage.width * size)
@@ -221,14 +236,20 @@ def _turns_up_to(largest: float, count: int) -> Array:
 
 
 def _verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
+    """The pose refined against the side of the part that it says the scan shows, and what speaks for it."""
+    light, gate = target.light, 0.06 * target.size
+    if is_rough(target, sketch):
+        pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
+        turned = facing_normals(light, apply(pose, sketch.points))
+        return Verified(pose, examine(light, sketch, pose, turned, table), turned)
     piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
     normals = signs[piece][:, None] * sketch.normals
-    for reach in (0.05, 0.05):
+    for _ in range(2):
         moved = apply(pose, sketch.points)
-        side = seen_side(target.light, moved, normals @ pose[:3, :3].T, reach * target.size)
-        pose = refine(side, sketch.points, pose, (0.06 * target.size,), 6)
+        side = seen_side(light, moved, normals @ pose[:3, :3].T, 0.05 * target.size)
+        pose = refine(side, sketch.points, pose, (gate,), 6)
     turned = normals @ pose[:3, :3].T
-    return Verified(pose, examine(target.light, sketch, pose, turned, table), turned)
+    return Verified(pose, examine(light, sketch, pose, turned, table), turned)
 
 
 def _polish(target: Target, sketch: Sketch, found: Verified, count: int = _POLISH_POINTS) -> Array:
@@ -282,13 +303,19 @@ def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified,
     margin = _MARGIN * (1.0 - best.evidence.score)
     place = sketch.points.mean(axis=0)
     rivals: list[Verified] = []
-    for other in [*turned, *sorted(verified, key=lambda v: -v.evidence.score)]:
-        new = all(angle(other.pose, known.pose) > 2.0 * _SAME_TURN
-                  or shift(other.pose, known.pose, place) > 2.0 * _SAME_SHIFT * target.size
-                  for known in (best, *rivals))
-        if new and other.evidence.score > best.evidence.score - margin:
+    found = [v for v in verified if v.evidence.score > best.evidence.score - margin]
+    for other in [*turned, *sorted(found, key=lambda v: -v.evidence.score)]:
+        known = (best, *rivals)
+        if _is_new(other.pose, known, place, target.size) and other.reason == "found":
+            other = replace(other, pose=_polish(target, sketch, other))
+        if _is_new(other.pose, known, place, target.size):
             rivals.append(other)
     return rivals
+
+
+def _is_new(pose: Array, known: Sequence[Verified], place: Array, size: float) -> bool:
+    return all(angle(pose, other.pose) > _SAME_TURN or shift(pose, other.pose, place) > _SAME_SHIFT * size
+               for other in known)
 
 
 def _no_answer(reason: str) -> Alignment:

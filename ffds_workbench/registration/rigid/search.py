@@ -27,7 +27,8 @@ class NearestField:
     ----------
     origin : (3,) in mm
     voxel : edge length in mm
-    nearest : (6, nx, ny, nz) index into points, one table for each of the directions ±x, ±y, ±z of the normal
+    nearest : (7, nx, ny, nz) index into points, one table for each of the directions ±x, ±y, ±z of the normal, and one
+        for normals that are not known
     points, normals : (m, 3) samples
     centre, size : of the part, (3,) and a length in mm
     """
@@ -40,12 +41,15 @@ class NearestField:
     centre: Array
     size: float
 
-    def __call__(self, points: Array, normals: Array) -> NDArray[np.int32]:
+    def __call__(self, points: Array, normals: Array | None) -> NDArray[np.int32]:
         """Index of the nearest sample for points and normals (…, 3); outside the grid the border counts."""
         shape = np.array(self.nearest.shape[1:], dtype=np.int32)
         cell = np.clip(((points - self.origin) / self.voxel).astype(np.int32), 0, shape - 1)
-        axis = np.argmax(np.abs(normals), axis=-1)
-        side = axis + 3 * (np.take_along_axis(normals, axis[..., None], axis=-1)[..., 0] < 0)
+        if normals is None:
+            side = np.array(len(_SIDES))
+        else:
+            axis = np.argmax(np.abs(normals), axis=-1)
+            side = axis + 3 * (np.take_along_axis(normals, axis[..., None], axis=-1)[..., 0] < 0)
         flat = ((side * shape[0] + cell[..., 0]) * shape[1] + cell[..., 1]) * shape[2] + cell[..., 2]
         return self.nearest.ravel()[flat]
 
@@ -59,8 +63,7 @@ def field_of(target: Target, resolution: int = 40, margin: float = 0.2) -> Neare
     axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
     tables = []
-    for side in _SIDES:
-        facing = np.flatnonzero(normals @ side > _SAME_SIDE)
+    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE) for side in _SIDES), np.arange(len(points))]:
         facing = facing if len(facing) else np.arange(len(points))
         tables.append(facing[cKDTree(points[facing]).query(grid.reshape(-1, 3))[1]].reshape(grid.shape[:3]))
     return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size)
@@ -94,11 +97,19 @@ class Candidates:
 
 @dataclass(frozen=True)
 class Probe:
-    """Points of the scan that the search looks at: (m, 3) points and normals, and the piece (m,) each belongs to."""
+    """Points of the scan that the search looks at.
+
+    Attributes
+    ----------
+    points, normals : (m, 3)
+    piece : (m,) the piece of surface that each belongs to
+    sided : whether the normals tell one side from the other; else they hardly count
+    """
 
     points: Array
     normals: Array
     piece: NDArray[np.intp]
+    sided: bool = True
 
 
 def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Sequence[float]) -> Candidates:
@@ -134,12 +145,13 @@ def scores(field: NearestField, probe: Probe, candidates: Candidates, width: flo
 
 
 def _match(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
-    """Moved points, their offsets from the nearest samples, those samples' normals, and max(0, cosine) of both."""
+    """Moved points, their offsets from the nearest samples, those samples' normals, and how well they agree."""
     moved = apply(poses, probe.points)
     turned = signs[:, probe.piece, None] * (probe.normals @ np.swapaxes(poses[:, :3, :3], -1, -2))
-    nearest = field(moved, turned)
+    nearest = field(moved, turned if probe.sided else None)
     surface_normal = field.normals[nearest]
-    agreement = np.maximum(np.einsum("kmi,kmi->km", turned, surface_normal), 0.0)
+    cosine = np.einsum("kmi,kmi->km", turned, surface_normal)
+    agreement = np.maximum(cosine, 0.0) if probe.sided else 0.6 + 0.4 * np.abs(cosine)
     return moved, moved - field.points[nearest], surface_normal, agreement
 
 

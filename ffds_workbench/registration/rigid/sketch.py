@@ -17,8 +17,8 @@ from ..splines import Array
 
 _POOL = 40_000
 _POINTS = 2_000
-_NEIGHBOURS = (14, 48)
-_ROUGH = 0.15
+_NEIGHBOURS = (14, 40)
+_ROUGH = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
 _SURE = 0.6
 """Cosine below which two neighbours say nothing about each other's side."""

@@ -14,7 +14,7 @@ from .motions import apply
 from .sketch import Plane, Sketch
 from .target import Target
 
-_NORMALS_AGREE, _ROUGHLY_AGREE = 0.6, 0.2
+_NORMALS_AGREE = 0.6
 _ROUGH = 0.003
 """Noise above this share of the part's size hides sides and small features."""
 _MOST_VIEWS = 3
@@ -29,8 +29,8 @@ class Evidence:
     Attributes
     ----------
     explained : share of the scan (table left out) that lies on the part with matching normals
-    misfit : mean distance of the scan from the part after a smooth deformation is allowed for, capped and as a share
-        of the cap: 0 is perfect, 1 is nothing
+    misfit : mean distance of the scan from the part after a smooth deformation is allowed for, less the noise, capped
+        and as a share of the cap: 0 is perfect, 1 is nothing
     coverage : share of the part's visible surface that the scan shows
     missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
     pierced : share of the part that would lie behind the table
@@ -51,6 +51,11 @@ class Evidence:
 def is_rough(target: Target, sketch: Sketch) -> bool:
     """Whether the noise is so large that normals and the sides of sheets are guesses."""
     return sketch.noise > _ROUGH * target.size
+
+
+def facing_normals(target: Target, points: Array) -> Array:
+    """Normals of the part below points (n, 3) in model coordinates: what takes the place of normals that are guesses."""
+    return target.samples.normals[target.tree.query(points)[1]]
 
 
 def seen_side(target: Target, points: Array, normals: Array, reach: float) -> Target:
@@ -84,14 +89,13 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     nearest = shown.tree.query(moved)[1]
     height, normal = shown.heights(moved, nearest)
     beside = _beside(shown, moved, nearest, height, normal)
-    agree = np.einsum("ni,ni->n", normals, shown.samples.normals[nearest]) > (
-        _ROUGHLY_AGREE if is_rough(target, sketch) else _NORMALS_AGREE)
+    agree = np.einsum("ni,ni->n", normals, shown.samples.normals[nearest]) > _NORMALS_AGREE
     on_part = agree & (np.abs(height) < _NEAR * size) & (beside < _NEAR * size)
     left = height - _smooth_part(moved, normal, height, on_part, size)
-    cap = max(0.008 * size, 6.0 * sketch.noise)
-    distance = np.where(agree, np.hypot(left, beside), cap)
+    cap = max(0.008 * size, 4.0 * sketch.noise)
+    distance = np.where(agree, np.hypot(left, beside), cap + sketch.noise)
     explained = agree & (distance < cap)
-    misfit = float(np.minimum(distance / cap, 1.0).mean())
+    misfit = float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
     coverage, missing = _views(target, moved[explained], normals[explained], sketch)
     pierced = 0.0
     if table is not None:
