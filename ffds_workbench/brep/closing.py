@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Closes what a solve over all faces leaves along the edges: separate fields that agree there to about 1e-3 mm.
 
-Every face keeps its own field and adds a small correction that is exactly (agreed displacement − own displacement) on all
-its edges and fades inside. Since neighbours take the same agreed displacement, edges close to the fidelity of the
+Every face keeps its own field and adds a small correction that is exactly (agreed displacement − own displacement)
+on all its edges and fades inside. Since neighbours take the same agreed displacement, edges close to the fidelity of the
 correction, with lattices not much finer than the fields themselves.
 """
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .workpiece import Workpiece
 
 FIDELITY = 1e-5
 """Largest distance in mm of a corrected field from the agreed displacement at the samples of the edges."""
-_SPACING = 0.02
+_SPACING = 0.01
 _FINEST = 0.25
 """Samples on an edge lie no farther apart than this share of the faces' size, nor closer than this in mm."""
 

@@ -2,7 +2,8 @@
 """The joint solve: scan points pull the displacement lattices of all faces of a part at once.
 
 One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's steps
-3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned in order.
+3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned
+in order.
 """
 from __future__ import annotations
 
