@@ -33,13 +33,14 @@ from ..seams.measured import SeamLimits  # noqa: E402
 from ..seams.plan import check_seam_outputs, plan_seams, write_seams  # noqa: E402
 from ..seams.programs.moves import RobotSettings, read_frame_choice  # noqa: E402
 from ..seams.settings import SeamSettings  # noqa: E402
+from .aligning import AlignedScan, align_scan, write_alignment  # noqa: E402
 from .deviating import Deviation, deviation  # noqa: E402
 from .inputs import read_model, read_scan  # noqa: E402
 from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation  # noqa: E402
 from .registering import Result, register  # noqa: E402
 from .simulating import simulate  # noqa: E402
 
-__all__ = ["Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "RobotSettings",
-           "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "carry", "check_model_output",
+__all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "RobotSettings",
+           "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "align_scan", "carry", "check_model_output",
            "check_outputs", "check_seam_outputs", "deviation", "plan_seams", "read_frame_choice", "read_model",
-           "read_scan", "register", "simulate", "write", "write_deviation", "write_seams", "write_simulation"]
+           "read_scan", "register", "simulate", "write", "write_alignment", "write_deviation", "write_seams", "write_simulation"]

@@ -34,7 +34,7 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     files.check_output(Path(out))
     panels = [drawing.Panel("Nominal", _all(result.before), _edges(result.nominal.shape)),
               drawing.Panel("As built", _all(result.after), _edges(result.shape))] if picture else []
-    outputs = _outputs((out, report, picture), inputs)
+    outputs = destinations((out, report, picture), inputs)
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         files.write(result.model, target[0])
@@ -47,7 +47,7 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
 def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,
                     inputs: Sequence[str | Path] = ()) -> None:
     """Write the report and the picture of a deviation: both or none. Raises as `write` does."""
-    outputs = _outputs((report, picture), inputs)
+    outputs = destinations((report, picture), inputs)
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if report is not None:
@@ -60,7 +60,7 @@ def write_deviation(result: Deviation, report: str | Path | None = None, picture
 def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
                      inputs: Sequence[str | Path] = ()) -> None:
     """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
-    outputs = _outputs((out, truth), inputs)
+    outputs = destinations((out, truth), inputs)
     with replacing(*outputs.values()) as temporary:
         write_ply(temporary[0], simulation.scan.points)
         if truth is not None:
@@ -69,7 +69,7 @@ def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path 
 
 def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:
     """Refuse destinations that cannot be written, before any work is done (InputError)."""
-    _outputs(paths, inputs)
+    destinations(paths, inputs)
 
 
 def check_model_output(path: str | Path) -> None:
@@ -77,7 +77,7 @@ def check_model_output(path: str | Path) -> None:
     files.check_output(Path(path))
 
 
-def _outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:
+def destinations(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:
     """The destinations that are asked for, by their place."""
     outputs = {place: Path(path) for place, path in enumerate(paths) if path is not None}
     if len({path.resolve() for path in outputs.values()}) < len(outputs):

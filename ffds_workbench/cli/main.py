@@ -20,7 +20,7 @@ from .. import RESOURCES, __version__
 from ..benchmark import NAMES as BENCHMARKS
 from ..errors import FfdsError, InputError, RefusedError
 from ..scan.units import MILLIMETRES
-from . import seams, simulate, weld
+from . import align, seams, simulate, weld
 from .terminal import ProgressLine, quiet_libraries
 
 if TYPE_CHECKING:
@@ -92,6 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     _add_register(commands)
     _add_deviation(commands)
+    align.add(commands)
     simulate.add(commands)
     seams.add(commands)
     weld.add(commands)
@@ -125,6 +126,8 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
                          help="source points per face of methods ffds and ffd-hsu (default: 400)")
     command.add_argument("--isometry", choices=["auto", "on", "off"], default="auto",
                          help="whether a whole sheet part keeps its lengths (default: decided from the scan)")
+    command.add_argument("--align", choices=["none", "fine", "global"], default="none",
+                         help="bring the scan onto the model first (default: none)")
     command.set_defaults(run=register)
 
 
@@ -172,11 +175,16 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     api.check_outputs((options.out, options.report, options.picture), inputs)
     api.check_model_output(options.out)
     model, scan = _read(api, options, progress)
+    aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
+    scan = scan if aligned is None else aligned.scan
     result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
                           options.source_points, options.isometry, progress)
+    if aligned is not None:
+        result.report["alignment"] = aligned.report
     progress(f"Writing {options.out}")
     api.write(result, options.out, options.report, options.picture, inputs)
-    return f"{result.table()}\n\n{_written(options.out, options.report, options.picture)}"
+    tables = [aligned.table()] if aligned is not None else []
+    return "\n\n".join([*tables, result.table(), _written(options.out, options.report, options.picture)])
 
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The job ``align``: bring a scan onto the model, and say how sure that is."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import Part
+
+from ..brep import workpiece
+from ..brep.files import Model
+from ..errors import InputError, RefusedError
+from ..output import replacing
+from ..registration.rigid import FAILED, Alignment, align, target_of
+from ..report import record
+from ..report.stopwatch import Progress, Stopwatch
+from ..scan.cloud import PointCloud
+from ..scan.sensor.files import write_ply
+from ..scan.units import MILLIMETRES
+from .inputs import as_cloud, as_model
+from .outputs import destinations
+
+ALIGNMENTS = ("fine", "global")
+
+
+@dataclass(frozen=True)
+class AlignedScan:
+    """A scan on its model.
+
+    Attributes
+    ----------
+    scan : the scan in mm and in the model's coordinates
+    alignment : the pose, its verdict and its confidence
+    report : the pose as a JSON record
+    """
+
+    scan: PointCloud
+    alignment: Alignment
+    report: dict[str, Any]
+
+    def table(self) -> str:
+        """What was found, as text."""
+        found = self.alignment
+        lines = [f"Alignment    {found.text}, confidence {found.confidence:.2f}",
+                 f"On the part  {100 * found.fitness:.1f} % of the scan within {found.reach:.2g} mm, "
+                 f"rms deviation {found.rmse:.3f} mm; {100 * found.coverage:.0f} % of the visible part covered"]
+        if found.symmetry:
+            lines.append(f"Symmetry     the part is {found.symmetry}")
+        if found.scale != 1.0:
+            lines.append(f"Unit         the scan is in {found.unit}: its coordinates were multiplied by {found.scale:g}")
+        if found.table:
+            lines.append("Table        a plane beside the part was left out")
+        return "\n".join(lines)
+
+
+def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, mode: str = "global",
+               progress: Progress | None = None) -> AlignedScan:
+    """Bring a scan onto a model by a rigid motion.
+
+    Parameters
+    ----------
+    model : a `Model`, a shape or a document object
+    scan : a `PointCloud`, or (n, 3) points in mm; a unit off by 1000, 100, 10 or 25.4 is recognised
+    mode : "fine" from where the scan lies, within some 30°; "global" from anywhere
+    progress : called with what is being done
+
+    Raises
+    ------
+    InputError : the model or the mode cannot be used
+    RefusedError : no pose explains the scan
+    """
+    if mode not in ALIGNMENTS:
+        raise InputError(f"The alignment '{mode}' is unknown: use one of {', '.join(ALIGNMENTS)}.")
+    watch = Stopwatch(progress)
+    with watch.stage("read", "Reading the model"):
+        cloud = as_cloud(scan)
+        part = workpiece.read(as_model(model).shape)
+        target = target_of([part.geometry(index) for index in range(len(part.faces))])
+    with watch.stage("align", "Aligning the scan"):
+        found = align(target, cloud.points, mode)
+    if found.verdict == FAILED:
+        raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "
+                           f"part, or leave other objects out.")
+    pose = found.T_model_scan
+    points = found.scale * cloud.points @ pose[:3, :3].T + pose[:3, 3]
+    unit = found.unit if found.scale != 1.0 and found.unit in MILLIMETRES else cloud.unit
+    report = {**_record(found), "timing": watch.times()}
+    return AlignedScan(PointCloud(points, cloud.dropped, unit), found, report)
+
+
+def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,
+                    inputs: Sequence[str | Path] = ()) -> None:
+    """Write an aligned scan (.ply) and its pose (.json): both or none.
+
+    Raises
+    ------
+    InputError : a destination cannot be written or is one of ``inputs``
+    RefusedError : the disk is full
+    """
+    outputs = destinations((out, pose), inputs)
+    with replacing(*outputs.values()) as temporary:
+        write_ply(temporary[0], aligned.scan.points)
+        if pose is not None:
+            record.write(aligned.report, temporary[1])
+
+
+def _record(found: Alignment) -> dict[str, Any]:
+    return {
+        "T_model_scan": found.T_model_scan.tolist(), "verdict": found.verdict, "confidence": found.confidence,
+        "poses": [{"T_model_scan": pose.T_model_scan.tolist(), "score": pose.score, "reason": pose.reason}
+                  for pose in found.poses],
+        "reason": found.reason, "symmetry": found.symmetry, "unit": found.unit, "scale": found.scale,
+        "fitness": found.fitness, "fitness_distance": found.reach, "rmse": found.rmse, "coverage": found.coverage,
+        "explained": found.explained, "table_removed": found.table}
