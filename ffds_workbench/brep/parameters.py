@@ -49,7 +49,7 @@ def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -
     """
     surface = face.Surface
     low, high = np.concatenate(polylines).min(axis=0), np.concatenate(polylines).max(axis=0)
-    natural = np.array(surface.bounds())
+    natural = _natural_bounds(surface, 0.5 * (low[1] + high[1]))
     sides, closed = [], []
     for k, (is_periodic, is_closed) in enumerate(((surface.isUPeriodic(), surface.isUClosed()),
                                                   (surface.isVPeriodic(), surface.isVClosed()))):
@@ -69,6 +69,15 @@ def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -
         closed.append(full)
     box = ParameterBox(*sides)
     return ParameterBox(*sides, closed[0] and _smooth_seam(surface, box, 0), closed[1] and _smooth_seam(surface, box, 1))
+
+
+def _natural_bounds(surface: Part.GeometrySurface, v_inside: float) -> Array:
+    """(u0, u1, v0, v1) of the surface; a cone ends at its apex, on the side of ``v_inside``."""
+    natural = np.array(surface.bounds())
+    if type(surface).__name__ == "Cone":
+        apex = -surface.Radius / np.sin(surface.SemiAngle)
+        natural[2 if v_inside > apex else 3] = apex
+    return natural
 
 
 def _smooth_seam(surface: Part.GeometrySurface, box: ParameterBox, direction: int) -> bool:
@@ -93,8 +102,8 @@ def own_knots(surface: Part.GeometrySurface, box: ParameterBox) -> tuple[Array, 
     """
     kind = type(surface).__name__
     if kind == "BSplineSurface":
-        return (_cubic_knots(surface.getUKnots(), surface.getUMultiplicities(), surface.UDegree),
-                _cubic_knots(surface.getVKnots(), surface.getVMultiplicities(), surface.VDegree))
+        return (_cubic_knots(surface.getUKnots(), surface.getUMultiplicities(), surface.UDegree, surface.isUPeriodic()),
+                _cubic_knots(surface.getVKnots(), surface.getVMultiplicities(), surface.VDegree, surface.isVPeriodic()))
     if kind in ("OffsetSurface", "RectangularTrimmedSurface"):
         return own_knots(surface.BasisSurface, box)
     if kind == "SurfaceOfExtrusion":
@@ -115,7 +124,7 @@ def _angles(start: float, end: float) -> Array:
 def _curve_knots(curve: Part.Curve, start: float, end: float) -> Array:
     kind = type(curve).__name__
     if kind == "BSplineCurve":
-        return _cubic_knots(curve.getKnots(), curve.getMultiplicities(), curve.Degree)
+        return _cubic_knots(curve.getKnots(), curve.getMultiplicities(), curve.Degree, curve.isPeriodic())
     if kind in ("Circle", "Ellipse", "ArcOfCircle", "ArcOfEllipse"):
         return _angles(start, end)
     if hasattr(curve, "BasisCurve"):
@@ -123,6 +132,11 @@ def _curve_knots(curve: Part.Curve, start: float, end: float) -> Array:
     return np.empty(0)
 
 
-def _cubic_knots(knots: list[float], multiplicities: list[int], degree: int) -> Array:
+def _cubic_knots(knots: list[float], multiplicities: list[int], degree: int, periodic: bool) -> Array:
     continuity = degree - np.asarray(multiplicities)
-    return np.repeat(np.asarray(knots, dtype=float), np.clip(DEGREE - continuity, 1, DEGREE))
+    repeated = np.repeat(np.asarray(knots, dtype=float), np.clip(DEGREE - continuity, 1, DEGREE))
+    if not periodic:
+        return repeated
+    # The face may lie across the seam.
+    one, period = repeated[repeated < knots[-1]], knots[-1] - knots[0]
+    return np.concatenate([one - period, one, one + period])
