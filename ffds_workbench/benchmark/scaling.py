@@ -20,7 +20,7 @@ from ..registration.ffds import register_ffds
 from ..registration.robust import register_robust
 from ..registration.splines import Array
 from . import page, style
-from .interleaved import best_seconds, median_seconds
+from .interleaved import best_cpu_seconds, median_seconds
 from .page import Picture, Section, Table
 from .paper_case import NOISE, SIZE, lifted, sheet
 
@@ -58,7 +58,7 @@ def cloud(count: int, seed: int = 1) -> Array:
 
 
 def over_points(progress: Progress) -> list[Row]:
-    """Seconds and peak memory of the methods on one face over the number of scan points.
+    """Processor seconds and peak memory of the methods on one face over the number of scan points.
 
     All sizes take turns, and the shortest time counts: a busy moment of the machine must not bend the curve.
     """
@@ -70,7 +70,7 @@ def over_points(progress: Progress) -> list[Row]:
                  f"robust {count}": lambda scan=scan: register_robust(face, scan),
                  f"kdtree {count}": lambda scan=scan: cKDTree(scan), f"read {count}": lambda scan=scan: scan.sum()}
     progress(f"Scaling: {POINTS[0]:,} to {POINTS[-1]:,} points")
-    seconds = best_seconds(jobs, _ROUNDS)
+    seconds = best_cpu_seconds(jobs, _ROUNDS)
     rows = []
     for count in POINTS:
         memory = {f"{name}_mb": peak_megabytes(jobs[f"{name} {count}"]) for name in ("ffds", "robust")}
@@ -155,7 +155,7 @@ def _exponents(rows: Sequence[Row], over: str, names: Any) -> dict[str, float]:
 
 def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
     further, exponents = data["ns_per_further_point"], data["exponents"]
-    points = Table("One face over the number of scan points: best of four turns, MB beyond the input, and ratios",
+    points = Table("One face over the number of scan points: processor time, best of four turns, MB beyond the input, and ratios",
                    ("points", *(f"{title}, ms" for title in _NAMES.values()), "ffds, MB", "robust, MB",
                     "ffds ÷ k-d tree", "robust ÷ k-d tree", "robust ÷ reading"),
                    [[f"{row['points']:,}", *(f"{1e3 * row[name]:.3g}" for name in _NAMES), f"{row['ffds_mb']:.0f}",
@@ -197,6 +197,6 @@ def _plot(folder: Path, rows: Sequence[Row]) -> str:
                                ("ffds", style.COLOURS["ffds"], "-"), ("read", style.INK, ":")):
         axes.loglog(count, [1e3 * row[name] for row in rows], line, color=colour, marker="o", markersize=4,
                     label=_NAMES[name])
-    axes.set(xlabel="scan points", ylabel="ms", title="One face, time over scan points")
+    axes.set(xlabel="scan points", ylabel="ms of processor time", title="One face, time over scan points")
     axes.legend()
     return style.save(drawing, folder, "scaling_points")

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""``./ffds benchmark summary``: the README's performance section, from what the other benchmarks measured.
+
+It measures nothing. It reads ``paper.json``, ``peers.json`` and ``scaling.json`` of the same output folder, says which
+of them are missing, and writes ``performance.md``. Between the marks in the README the section is replaced.
+"""
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from .. import ROOT
+from ..errors import InputError
+from .page import Table
+from .paper_methods import TITLES
+
+Progress = Callable[[str], None]
+
+START, END = "<!-- performance: ./ffds benchmark summary -->", "<!-- /performance -->"
+_SOURCES = ("paper", "peers", "scaling")
+
+
+def run(folder: Path, progress: Progress, readme: Path = ROOT / "README.md") -> str:
+    """Write ``performance.md`` and, where the README has the marks, the section between them; returns the section.
+
+    Raises
+    ------
+    InputError : the folder holds no benchmark's figures
+    """
+    progress("Summary")
+    data = {name: json.loads((folder / f"{name}.json").read_text()) for name in _SOURCES
+            if (folder / f"{name}.json").exists()}
+    if not data:
+        raise InputError(f"{folder} holds no figures: run ./ffds benchmark paper, peers or scaling with --out {folder} "
+                         "first.")
+    text = section(data)
+    (folder / "performance.md").write_text(text + "\n")
+    if readme.exists():
+        whole = readme.read_text("utf-8")
+        if START in whole and END in whole:
+            head, rest = whole.split(START, 1)
+            readme.write_text(head + START + "\n" + text + "\n" + END + rest.split(END, 1)[1], "utf-8")
+    return text
+
+
+def section(data: dict[str, Any]) -> str:
+    """The section as Markdown."""
+    parts = ["Generated from these runs; all clouds are simulated, and the figures are of one machine in one run: "
+             "compare ratios, not milliseconds."]
+    if "paper" in data:
+        parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.", _paper(data["paper"]).markdown()]
+    if "peers" in data:
+        parts += ["`./ffds benchmark peers --out DIR` runs what one would take instead.", _peers(data["peers"]).markdown()]
+        parts += [f"Not run: {name} ({why})." for name, why in data["peers"]["skipped"].items()]
+    if "scaling" in data:
+        parts += ["`./ffds benchmark scaling --out DIR` grows the scan.", _scaling(data["scaling"]).markdown()]
+    missing = [name for name in _SOURCES if name not in data]
+    if missing:
+        parts.append("Not measured for this summary: " + ", ".join(missing) + ".")
+    return "\n\n".join(parts)
+
+
+def _paper(data: dict[str, Any]) -> Table:
+    ratios = data["ratios"]
+    rows = [["solve, dense FFD-HSU ÷ FFDS", f"{ratios['ffd_hsu_to_ffds']:.0f} ×",
+             f"{ratios['published']:.0f} × (dense against dense)"],
+            ["solve, dense FFD-HSU ÷ dense FFDS", f"{ratios['ffd_hsu_to_ffds_dense']:.0f} ×", f"{ratios['published']:.0f} ×"],
+            ["neighbours and solve, 104,705 points ÷ one k-d tree build", f"{ratios['whole_step_to_kdtree_build']:.2f}", ""]]
+    for figure, what in (("figure_6b", "exact cloud"), ("figure_9b", "noise 0.13 mm, gaps")):
+        row = next(row for row in data[figure] if row["control_points_per_direction"] == 10)
+        for method, title in TITLES.items():
+            rows.append([f"true mean distance, {what}, {title}", f"{row[method]['true_mean']:.4f} mm", ""])
+    return Table("400 source points, N = 10", ("", "here", "published"), rows)
+
+
+def _peers(data: dict[str, Any]) -> Table:
+    head = ("method", "clean: mean, mm", "s", "dirty: mean, mm", "s", "largest scan in 60 s", "CAD, topology kept")
+    rows = [[row["title"], *_figures(row["A"]), *_figures(row["D"]), f"{row['largest_in_60_s']:,}",
+             "yes" if row["cad_topology_kept"] else "no"] for row in data["rows"]]
+    return Table("True mean distance on a sheet, 42,087 points, clean and dirty", head, rows)
+
+
+def _figures(case: dict[str, Any]) -> list[str]:
+    return ["failed", ""] if "failed" in case else [f"{case['true_mean']:.4f}", f"{case['seconds']:.3g}"]
+
+
+def _scaling(data: dict[str, Any]) -> Table:
+    last = data["points"][-1]
+    rows = [[name, f"{1e3 * last[name]:.0f}", f"{data['ns_per_further_point'][name]['from_1m_to_5m']:.0f}",
+             f"{data['ns_per_further_point'][name]['ratio']:.2f}", f"{last[f'{name}_mb']:.0f}" if name != "kdtree" else ""]
+            for name in ("ffds", "robust", "kdtree")]
+    return Table(f"{last['points']:,} points on one face", ("", "ms", "ns per further point", "÷ those up to 1M", "MB"), rows)

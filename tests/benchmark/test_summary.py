@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The README's performance section is generated, not written."""
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from ffds_workbench.benchmark import summary
+from ffds_workbench.errors import InputError
+
+
+def test_section_replaces_what_stands_between_the_marks(tmp_path):
+    further = {"from_100k_to_1m": 50.0, "from_1m_to_5m": 60.0, "ratio": 1.2}
+    data = {"points": [{"points": 5_000_000, "ffds": 0.3, "robust": 0.5, "kdtree": 2.5, "ffds_mb": 300, "robust_mb": 500}],
+            "ns_per_further_point": dict.fromkeys(("ffds", "robust", "kdtree"), further)}
+    (tmp_path / "scaling.json").write_text(json.dumps(data))
+    readme = tmp_path / "README.md"
+    readme.write_text(f"before\n{summary.START}\nold\n{summary.END}\nafter\n")
+    text = summary.run(tmp_path, lambda stage: None, readme)
+    assert "./ffds benchmark scaling" in text and "Not measured for this summary: paper, peers" in text
+    whole = readme.read_text()
+    assert "old" not in whole and "| ffds | 300 | 60 | 1.20 | 300 |" in whole
+    assert whole.startswith("before\n") and whole.endswith("\nafter\n")
+
+
+def test_without_figures_it_says_what_to_run(tmp_path):
+    with pytest.raises(InputError, match="benchmark paper"):
+        summary.run(tmp_path, lambda stage: None)
