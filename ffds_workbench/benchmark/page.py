@@ -29,7 +29,8 @@ class Table:
         """The table with its caption as HTML."""
         head = "".join(f"<th>{html.escape(cell)}</th>" for cell in self.head)
         rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self.rows)
-        return (f"<div class='scroll'><table><caption>{html.escape(self.caption)}</caption><thead><tr>{head}</tr></thead>"
+        caption = html.escape(self.caption)
+        return (f"<div class='scroll'><table><caption>{caption}</caption><thead><tr>{head}</tr></thead>"
                 f"<tbody>{rows}</tbody></table></div>")
 
 

@@ -17,13 +17,13 @@ from .paper_methods import TITLES
 _TITLE = "The paper's figures, reproduced"
 _SIMULATED = ("All clouds here are simulated. The paper states neither the size of its sheet nor the formula of its "
               "deformation: the stand-in is a plane of 75 × 70 mm with a dent, a bend and a twist of about 5 mm.")
-_METRIC = ("The paper's accuracy is the mean distance from random points M on the result to their nearest neighbours in "
-           "T. For two independent clouds of a spacing of 0.2 mm that number cannot fall below 0.5/√density ≈ 0.1 mm, "
+_METRIC = ("The paper's accuracy is the mean distance from random points M on the result to their nearest neighbours "
+           "in T. For two independent clouds of a spacing of 0.2 mm that number cannot fall below 0.5/√density ≈ 0.1 mm, "
            "even for a perfect result: the published 0.03 mm needs a closer spacing, or M drawn at T's own (u, v), or "
            "distances to the surface. So each figure is given in the paper's metric beside its floor, with M at T's "
            "(u, v), and as the true distance to the deformed surface and to its boundary.")
-_TWO_AXES = ("The paper's axis is the total of control points. At the same N a lattice in space has N³ where the surface "
-             "has N²; on a plane face in the middle of the lattice both are the same deformation, to rounding.")
+_TWO_AXES = ("The paper's axis is the total of control points. At the same N a lattice in space has N³ where the "
+             "surface has N²; on a plane face in the middle of the lattice both are the same deformation, to rounding.")
 
 
 def run(folder: Path, progress: Progress) -> str:
@@ -60,10 +60,10 @@ def _sections(folder: Path, cases: dict[str, paper_case.PaperCase], data: dict[s
     sections = [
         Section("What is compared", (_SIMULATED, _METRIC, _TWO_AXES), tables=(_ratio_table(data),)),
         Section("Figure 3: the two kinds of lattice",
-                pictures=(Picture(paper_pictures.lattices(folder), "Control points in the face, and in space around it."),)),
+                pictures=(Picture(paper_pictures.lattices(folder), "Control points in the face, and around it."),)),
         Section("Figure 4: a weld seam contour", pictures=(Picture(
             paper_pictures.seam(measured, folder),
-            "Nominal, true and found seam, and how far the found ones are from the true one (simulated, measured case)."),)),
+            "Nominal, true and found seam, and how far the found ones are from the true one (simulated)."),)),
     ]
     for case, before, numbers in ((virtual, "5", "6"), (measured, "8", "9")):
         shown = paper_pictures.before_and_after(case, folder, f"figure_{before}")
@@ -100,7 +100,8 @@ def _time_table(rows: Sequence[Row], case: str) -> Table:
     heads = {"ffds_s": "FFDS, Kronecker", "ffds_dense_s": "FFDS, dense", "ffd_hsu_s": "FFD-HSU, dense",
              "ffd_hsu_touched_s": "FFD-HSU, touched only", "ffd_hsu_fast_s": "FFD-HSU, product form"}
     cells = [[str(row["source_points"]), *(f"{1e3 * row[key]:.3g}" for key in heads),
-              f"{row['ffd_hsu_s'] / row['ffds_dense_s']:.0f}", f"{row['ffd_hsu_s'] / row['ffds_s']:.0f}"] for row in rows]
+              f"{row['ffd_hsu_s'] / row['ffds_dense_s']:.0f}", f"{row['ffd_hsu_s'] / row['ffds_s']:.0f}"]
+             for row in rows]
     published = PUBLISHED_TIMES[case]
     cells.append(["400, published", "", f"{1e3 * published['ffds_dense_s']:.0f}", f"{1e3 * published['ffd_hsu_s']:.0f}",
                   "", "", f"{published['ffd_hsu_s'] / published['ffds_dense_s']:.0f}", ""])
@@ -111,15 +112,16 @@ def _time_table(rows: Sequence[Row], case: str) -> Table:
 def _accuracy_table(rows: Sequence[Row], case: str) -> Table:
     keys = {"paper_metric": "metric", "paper_metric_same_uv": "M at T's (u, v)", "true_mean": "true mean",
             "true_p95": "true p95", "edge_mean": "edge mean"}
-    cells = [[str(row["control_points_per_direction"]), str(row["control_points_ffds"]), str(row["control_points_ffd_hsu"]),
+    counts = ("control_points_per_direction", "control_points_ffds", "control_points_ffd_hsu")
+    cells = [[*(str(row[count]) for count in counts),
               *(f"{row[method][key]:.4f}" for method in ("ffds", "ffd_hsu", "robust") for key in keys)] for row in rows]
     head = ["N", "N²", "N³", *(f"{TITLES[method]}: {text}" for method in ("ffds", "ffd_hsu", "robust")
                                for text in keys.values())]
     first = rows[0]["ffds"]
     stated = "; ".join(f"{TITLES[method]} about {value} mm from {count} control points on"
                        for method, (count, value) in PUBLISHED_ACCURACY[case].items())
-    return Table(f"Accuracy in mm, 400 source points. Floor of the metric {first['floor']:.3f}, a perfect result on this "
-                 f"T {first['perfect']:.3f}. Published: {stated}.", head, cells)
+    return Table(f"Accuracy in mm, 400 source points. Floor of the metric {first['floor']:.3f}, a perfect result on "
+                 f"this T {first['perfect']:.3f}. Published: {stated}.", head, cells)
 
 
 def _real_section(real: dict[str, Any] | None) -> Section:
@@ -132,9 +134,9 @@ def _real_section(real: dict[str, Any] | None) -> Section:
         rows.append([name, "refused", "", ""] if "refused" in figures else
                     [name, f"{figures['fitted']['mean']:.3f}", f"{figures['held_out']['mean']:.3f}",
                      f"{figures['held_out']['rms']:.3f}"])
-    text = (f"The outer face of a pipe ({real['face']}) of a weld part, {real['points']} points near it from a robot-mounted "
-            "laser. Its noise is about 1.6 mm and the pipe measures 2.5 mm too small in radius. FFDS and FFD-HSU with "
+    text = (f"The outer face of a pipe ({real['face']}) of a weld part, {real['points']} points near it from a "
+            "robot-mounted laser. Its noise is about 1.6 mm and the pipe measures 2.5 mm too small in radius. FFDS and FFD-HSU with "
             "N = 6 and 400 source points, robust FFDS with a lattice of its own choice. No true surface is known: the "
             "figures are distances of scan points from the result, every fifth point held out.")
-    return Section(title, (text,), tables=(Table(
-        "Distance of scan points from the face in mm", ("", "fitted points, mean", "held out, mean", "held out, rms"), rows),))
+    head = ("", "fitted points, mean", "held out, mean", "held out, rms")
+    return Section(title, (text,), tables=(Table("Distance of scan points from the face in mm", head, rows),))

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..registration.face import FaceGeometry
-from ..registration.splines import Array, SplineSurface, clamped_knots, greville
+from ..registration.splines import Array
+from .sheet import NOISE, SIZE, height
+from .sheet import POINTS as MEASURED_POINTS
 
-SIZE = (75.0, 70.0)
-VIRTUAL_POINTS, MEASURED_POINTS = 104_705, 42_087
-NOISE = 0.13
+VIRTUAL_POINTS = 104_705
 GAPS = 0.2
 _EDGE_POINTS = 400
 _STEPS = 20
@@ -45,26 +44,9 @@ class PaperCase:
         return 0.5 / float(np.sqrt(len(self.target) / (self.seen * SIZE[0] * SIZE[1])))
 
 
-def height(xy: Array) -> Array:
-    """The deformed sheet, z in mm over (x, y) in mm, (n, 2) to (n,): a dent, a bend and a twist."""
-    a, b = xy[:, 0] / SIZE[0] - 0.55, xy[:, 1] / SIZE[1] - 0.45
-    x, y = xy[:, 0] / SIZE[0] - 0.5, xy[:, 1] / SIZE[1] - 0.5
-    return 5 * np.exp(-(a**2 + b**2) / (2 * 0.28**2)) + 5 * x**2 + x * y
-
-
 def lifted(xy: Array) -> Array:
     """Points (n, 3) of the deformed sheet over (x, y)."""
-    return np.column_stack([xy, height(xy)])
-
-
-def sheet() -> FaceGeometry:
-    """f_s: the undeformed face, z = 0, its (u, v) in mm."""
-    ku, kv = clamped_knots(0.0, SIZE[0], 4), clamped_knots(0.0, SIZE[1], 4)
-    u, v = np.meshgrid(greville(ku), greville(kv), indexing="ij")
-    a, b = SIZE
-    outline = np.array([[0, 0], [a, 0], [a, b], [0, b], [0, 0]])
-    return FaceGeometry("Face1", "Plane", SplineSurface(ku, kv, np.stack([u, v, np.zeros_like(u)], axis=-1)),
-                        (outline,), 1)
+    return np.column_stack([xy, height(*xy.T)])
 
 
 def virtual_case(seed: int = 1) -> PaperCase:
@@ -95,7 +77,7 @@ def true_distance(points: Array) -> Array:
     for _ in range(_STEPS):
         h = 1e-4
         ex, ey = np.array([h, 0.0]), np.array([0.0, h])
-        z, right, left, up, down = (height(xy + e) for e in (0 * ex, ex, -ex, ey, -ey))
+        z, right, left, up, down = (height(*(xy + e).T) for e in (0 * ex, ex, -ex, ey, -ey))
         gx, gy = (right - left) / (2 * h), (up - down) / (2 * h)
         gap = np.column_stack([points[:, :2] - xy, points[:, 2] - z])
         a, b, c = 1 + gx**2, gx * gy, 1 + gy**2

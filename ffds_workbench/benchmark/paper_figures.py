@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..registration import ffd, ffds
-from ..registration.control_lattice import displacement_lattice
+from ..registration.control_lattice import ControlLattice, displacement_lattice
 from ..registration.neighbours import nearest_neighbours
+from ..registration.splines import Array
 from .interleaved import median_seconds
-from .paper_case import PaperCase, sheet
+from .paper_case import PaperCase
 from .paper_methods import METHODS, Judge
+from .sheet import nominal
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]
@@ -23,7 +26,8 @@ CONTROL_POINTS = tuple(range(4, 21))
 LATTICE, SOURCE = 10, 400
 REPEATS = 20
 
-PUBLISHED_TIMES = {"virtual": {"ffd_hsu_s": 1.67, "ffds_dense_s": 0.10}, "measured": {"ffd_hsu_s": 1.69, "ffds_dense_s": 0.10}}
+PUBLISHED_TIMES = {"virtual": {"ffd_hsu_s": 1.67, "ffds_dense_s": 0.10},
+                   "measured": {"ffd_hsu_s": 1.69, "ffds_dense_s": 0.10}}
 """Seconds at 400 source points on the paper's 2.8 GHz quad core."""
 
 PUBLISHED_ACCURACY = {"virtual": {"ffds": (25, 0.03), "ffd_hsu": (216, 0.03)},
@@ -38,7 +42,7 @@ def solve_times(case: PaperCase, progress: Progress, repeats: int = REPEATS) -> 
     paper; ``ffd_hsu_touched_s`` leaves out the control points that no source point depends on, ``ffd_hsu_fast_s`` is
     the product form of the lattice in space.
     """
-    face = sheet()
+    face = nominal()
     control = displacement_lattice(face.surface, (LATTICE, LATTICE))
     volume = ffd.enclose(face, (LATTICE, LATTICE, LATTICE))
     rows = []
@@ -49,17 +53,21 @@ def solve_times(case: PaperCase, progress: Progress, repeats: int = REPEATS) -> 
         points = source.points.reshape(-1, 3)
         moves = case.target[nearest_neighbours(case.target, points)[1]] - points
         jobs = {
-            "ffds_s": lambda: ffds.solve(control, u, v, on_face, moves),
-            "ffds_dense_s": lambda: ffds.pseudo_inverse(ffds.basis(control, u, v)) @ moves,
-            "ffd_hsu_s": lambda: ffd.solve_dense(volume, points, moves),
-            "ffd_hsu_touched_s": lambda: _solve_touched(volume, points, moves),
-            "ffd_hsu_fast_s": lambda: ffd.solve(volume, source, moves),
+            "ffds_s": partial(ffds.solve, control, u, v, on_face, moves),
+            "ffds_dense_s": partial(_solve_dense, control, source, moves),
+            "ffd_hsu_s": partial(ffd.solve_dense, volume, points, moves),
+            "ffd_hsu_touched_s": partial(_solve_touched, volume, points, moves),
+            "ffd_hsu_fast_s": partial(ffd.solve, volume, source, moves),
         }
         rows.append({"source_points": len(points), **median_seconds(jobs, repeats)})
     return rows
 
 
-def _solve_touched(volume: ffd.VolumeLattice, points: np.ndarray, moves: np.ndarray) -> np.ndarray:
+def _solve_dense(control: ControlLattice, source: ffd.FaceSource, moves: Array) -> Array:
+    return ffds.pseudo_inverse(ffds.basis(control, source.u, source.v)) @ moves
+
+
+def _solve_touched(volume: ffd.VolumeLattice, points: Array, moves: Array) -> Array:
     matrix = ffd.basis(volume, points)
     touched = matrix.any(axis=0)
     result = np.zeros((matrix.shape[1], 3))
@@ -83,7 +91,7 @@ def accuracies(case: PaperCase, progress: Progress) -> list[Row]:
 def whole_step(case: PaperCase, progress: Progress, repeats: int = REPEATS) -> dict[str, float]:
     """Method ``ffds`` with its correspondences and its solve, beside building one k-d tree of the same cloud."""
     progress("Whole step")
-    face = sheet()
+    face = nominal()
     return median_seconds({
         "whole_step_s": lambda: ffds.register_ffds(face, case.target, (LATTICE, LATTICE), SOURCE),
         "kdtree_build_s": lambda: cKDTree(case.target),

@@ -13,12 +13,13 @@ from ..registration.ffds import register_ffds
 from ..registration.result import FaceRegistration
 from ..registration.robust import register_robust
 from ..registration.splines import Array
-from .paper_case import PaperCase, edge_distance, lifted, outline, sheet, true_distance
+from .paper_case import PaperCase, edge_distance, lifted, outline, true_distance
+from .sheet import nominal
 
 METHODS: dict[str, Callable[..., FaceRegistration]] = {
-    "ffds": lambda scan, lattice, points: register_ffds(sheet(), scan, lattice, points),
-    "ffd_hsu": lambda scan, lattice, points: register_ffd(sheet(), scan, lattice, points),
-    "robust": lambda scan, lattice, points: register_robust(sheet(), scan, lattice),
+    "ffds": lambda scan, lattice, points: register_ffds(nominal(), scan, lattice, points),
+    "ffd_hsu": lambda scan, lattice, points: register_ffd(nominal(), scan, lattice, points),
+    "robust": lambda scan, lattice, points: register_robust(nominal(), scan, lattice),
 }
 """(scan, (N_i, N_j), source points) to the registration; ``robust`` uses all scan points instead of source points."""
 
@@ -61,7 +62,7 @@ class Judge:
     def __init__(self, case: PaperCase, seed: int = 7) -> None:
         self.case = case
         self.tree = cKDTree(case.target)
-        u0, u1, v0, v1 = sheet().surface.range
+        u0, u1, v0, v1 = nominal().surface.range
         uv = np.random.default_rng(seed).uniform((u0, v0), (u1, v1), (len(case.target), 2))
         self.same_uv = np.clip(case.target[:_TRUE_POINTS, :2], (u0, v0), (u1, v1))
         self.everywhere = uv[:_TRUE_POINTS]
@@ -79,4 +80,4 @@ class Judge:
 
 def deformed(result: FaceRegistration, uv: Array) -> Array:
     """Points of the deformed sheet at (u, v), (n, 2) to (n, 3)."""
-    return sheet().surface(uv) + result.displacement(uv)
+    return nominal().surface(uv) + result.displacement(uv)

@@ -2,6 +2,8 @@
 """Figures 3, 4, 5 and 8 of the paper as pictures: lattices, clouds and surfaces before and after."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +14,9 @@ from ..registration import ffd, ffds
 from ..registration.control_lattice import displacement_lattice
 from ..registration.splines import Array, greville
 from . import style
-from .paper_case import SIZE, PaperCase, lifted, sheet
+from .paper_case import PaperCase, lifted
 from .paper_methods import METHODS, TITLES, deformed
+from .sheet import SIZE, nominal
 
 _EXAGGERATED = 2.5
 _ELEVATION, _AZIMUTH, _ZOOM = 26, -58, 1.06
@@ -23,7 +26,7 @@ _CORNER, _SEAM = 7.0, (18.0, 16.0, 57.0, 54.0)
 def lattices(folder: Path, name: str = "figure_3") -> str:
     """Figure 3: the control points of both methods on the same face."""
     drawing = style.figure(10.5, 4.3)
-    face = sheet()
+    face = nominal()
     control = displacement_lattice(face.surface, (5, 5))
     on_face = face.surface.on_grid(greville(control.knots_u), greville(control.knots_v))
     in_space = ffd.enclose(face, (5, 5, 5)).control_points
@@ -45,42 +48,43 @@ def lattices(folder: Path, name: str = "figure_3") -> str:
 def before_and_after(case: PaperCase, folder: Path, name: str) -> str:
     """Figures 5 and 8: 36 source points, T and 25 control points, before and after."""
     result = METHODS["ffds"](case.target, (5, 5), 36)
-    u, v, _ = ffds.equidistant_grid(sheet(), 36)
+    u, v, _ = ffds.equidistant_grid(nominal(), 36)
     source = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
-    before = sheet().surface.on_grid(greville(result.displacement.knots_u), greville(result.displacement.knots_v))
+    before = nominal().surface.on_grid(greville(result.displacement.knots_u), greville(result.displacement.knots_v))
     drawing = style.figure(11, 4.3)
     shown = case.target[np.random.default_rng(0).permutation(len(case.target))[:6000]]
     for k, title in enumerate(("before (heights × 2.5)", "after (heights × 2.5)")):
         axes = _axes(drawing, 1, 2, k + 1, title)
         axes.scatter(*shown.T, s=1.6, color=style.CLOUD, linewidths=0, label="_")
         moved = k * result.displacement.control_points
-        points = deformed(result, source) if k else sheet().surface(source)
-        _surface(axes, _grid_of(lambda uv, k=k: deformed(result, uv) if k else sheet().surface(uv)), style.SHEET, 0.35)
+        points = deformed(result, source) if k else nominal().surface(source)
+        _surface(axes, _grid_of(partial(deformed, result) if k else nominal().surface), style.SHEET, 0.35)
         _net(axes, before + moved, style.COLOURS["ffds"])
         axes.scatter(*points.T, s=14, color=style.INK, depthshade=False, label="36 source points")
         axes.plot([], [], "o", color=style.CLOUD, markersize=3, label="T, the target cloud (part of it)")
         axes.plot([], [], "o-", color=style.COLOURS["ffds"], markersize=4, label="25 control points")
-    drawing.legend(*axes.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, fontsize=9)
+    drawing.legend(*axes.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3,
+                   fontsize=9)
     return style.save(drawing, folder, name)
 
 
 def seam(case: PaperCase, folder: Path, name: str = "figure_4") -> str:
     """Figures 4 and 7: a weld seam contour on the face, nominal, true and found, and how far what is found is off."""
     path = seam_contour()
-    nominal, true = sheet().surface(path), lifted(path)
+    before, true = nominal().surface(path), lifted(path)
     found = {method: deformed(METHODS[method](case.target, (10, 10), 400), path) for method in ("ffds", "robust")}
     drawing = style.figure(11, 4.6)
     axes = _axes(drawing, 1, 2, 1, "weld seam contour of a tube on the sheet (heights × 2.5)")
-    _surface(axes, _grid_of(lambda uv: sheet().surface(uv)), "#e9edf1", 0.5)
+    _surface(axes, _grid_of(nominal().surface), "#e9edf1", 0.5)
     _surface(axes, _grid_of(lifted), style.SHEET, 0.6)
-    axes.plot(*nominal.T, "--", color=style.SOFT, label="nominal")
+    axes.plot(*before.T, "--", color=style.SOFT, label="nominal")
     axes.plot(*true.T, color=style.INK, linewidth=2.5, label="deformed, true")
     axes.plot(*found["robust"].T, color=style.COLOURS["robust"], linewidth=1.2, label="found")
     axes.legend(fontsize=8.5, loc="upper left")
     plot = drawing.add_subplot(1, 2, 2)
-    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(nominal, axis=0), axis=1))])
+    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(before, axis=0), axis=1))])
     tree = cKDTree(lifted(seam_contour(20_000)))
-    plot.semilogy(arc, np.linalg.norm(true - nominal, axis=1), "--", color=style.SOFT, label="nominal")
+    plot.semilogy(arc, np.linalg.norm(true - before, axis=1), "--", color=style.SOFT, label="nominal")
     for method, points in found.items():
         plot.semilogy(arc, np.maximum(tree.query(points)[0], 1e-5), color=style.COLOURS[method], label=TITLES[method])
     plot.set(xlabel="along the seam in mm", ylabel="distance from the true seam in mm",
@@ -114,7 +118,7 @@ def _axes(drawing: style.Figure, rows: int, columns: int, place: int, title: str
     return axes
 
 
-def _grid_of(surface) -> Array:
+def _grid_of(surface: Callable[[Array], Array]) -> Array:
     u, v = np.linspace(0, SIZE[0], 41), np.linspace(0, SIZE[1], 41)
     uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
     return surface(uv.reshape(-1, 2)).reshape(41, 41, 3)

@@ -39,7 +39,8 @@ def bracket(rng: np.random.Generator) -> FamilyPart:
     turn = np.deg2rad(rng.uniform(80, 100))
     profile = Profile((Piece(legs[0]), Piece(radius * turn, turn), Piece(legs[1])), thickness)
     shape = _extruded(profile, width)
-    shape = _drill(shape, profile, 0, [(0.45 * legs[0], 0.25 * width), (0.45 * legs[0], 0.75 * width)], rng.uniform(3, 5))
+    pair = [(0.45 * legs[0], 0.25 * width), (0.45 * legs[0], 0.75 * width)]
+    shape = _drill(shape, profile, 0, pair, rng.uniform(3, 5))
     shape = _drill(shape, profile, 2, [(0.6 * legs[1], 0.5 * width)], rng.uniform(4, 7))
     return FamilyPart(shape, np.array([[-0.55, 0.2, 0.85], [-0.8, -0.35, -0.55]]), thickness, profile, 0)
 

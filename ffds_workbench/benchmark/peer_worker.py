@@ -122,10 +122,9 @@ def ours(method: str) -> Callable[[np.ndarray, np.ndarray], Job]:
     """One of this project's methods."""
 
     def prepare(scan: np.ndarray, size: np.ndarray) -> Job:
-        from ffds_workbench.benchmark.paper_case import sheet
         from ffds_workbench.benchmark.peers_own import OWN
-        source = grid(size, 51)
-        face = sheet()
+        from ffds_workbench.benchmark.sheet import nominal
+        source, face = grid(size, 51), nominal()
 
         def job() -> np.ndarray:
             return source + OWN[method](face, scan).displacement(source[:, :2])
@@ -162,10 +161,8 @@ def _timed(job: Job) -> tuple[np.ndarray, float]:
 
 def _kilobytes(entry: str) -> int:
     """Memory of this process by the kernel's books: VmRSS now, VmHWM at its largest."""
-    for line in open("/proc/self/status", encoding="ascii"):
-        if line.startswith(entry):
-            return int(line.split()[1])
-    return 0
+    with open("/proc/self/status", encoding="ascii") as lines:
+        return next((int(line.split()[1]) for line in lines if line.startswith(entry)), 0)
 
 
 if __name__ == "__main__":

@@ -20,13 +20,14 @@ from .. import ROOT
 from ..registration.splines import Array
 from . import page, peers_environment, style
 from .page import Picture, Section, Table
-from .paper_case import SIZE, true_distance
-from .peers_cases import CASES, clean
+from .paper_case import true_distance
 from .peers_environment import Environment
+from .sheet import SIZE, scan
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]
 
+CASES = ("A", "D", "E")
 SEEDS = (1, 2, 3)
 LIMIT_SECONDS = 60.0
 SIZES = (1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000)
@@ -99,10 +100,8 @@ def accuracy(peer: Peer, environment: Environment, case: str) -> Row:
     """Mean over the seeds of the true mean and p95, the largest maximum, seconds and MB; one seed for slow peers."""
     results = []
     for seed in SEEDS:
-        scan = CASES[case](seed)
-        if peer.most is not None and len(scan) > peer.most:
-            scan = scan[np.random.default_rng(seed).permutation(len(scan))[: peer.most]]
-        done = work(peer.name, environment, scan, 5 * LIMIT_SECONDS)
+        points = np.random.default_rng(seed).permutation(scan(case, seed))[: peer.most]
+        done = work(peer.name, environment, points, 5 * LIMIT_SECONDS)
         if isinstance(done, str):
             return {"failed": done}
         results.append((true_distance(done["moved"]), float(done["seconds"]), float(done["megabytes"])))
@@ -119,7 +118,7 @@ def largest_size(peer: Peer, environment: Environment) -> int:
     """Largest of the sizes that the method does on sheet A within 60 s and 10 GB; 0 where it does none."""
     done_size, before = 0, 0.0
     for size in SIZES:
-        done = work(peer.name, environment, clean(1, size), LIMIT_SECONDS)
+        done = work(peer.name, environment, scan("A", 1, size), LIMIT_SECONDS)
         if isinstance(done, str) or done["seconds"] > LIMIT_SECONDS:
             break
         done_size, seconds = size, float(done["seconds"])
@@ -129,15 +128,16 @@ def largest_size(peer: Peer, environment: Environment) -> int:
     return done_size
 
 
-def work(method: str, environment: Environment, scan: Array, limit: float) -> Any:
+def work(method: str, environment: Environment, points: Array, limit: float) -> Any:
     """Run the worker: what it wrote, or a word on why there is nothing."""
     with tempfile.TemporaryDirectory() as folder:
         given, result = Path(folder) / "in.npz", Path(folder) / "out.npz"
-        np.savez(given, scan=scan, size=np.array(SIZE))
+        np.savez(given, scan=points, size=np.array(SIZE))
         variables = {**os.environ, "PYTHONPATH": str(ROOT)}
         try:
-            done = subprocess.run([str(environment.python), str(_WORKER), method, str(given), str(result)], check=False,
-                                  capture_output=True, text=True, timeout=limit + _START_UP, env=variables)
+            command = [str(environment.python), str(_WORKER), method, str(given), str(result)]
+            done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=limit + _START_UP,
+                                  env=variables)
         except subprocess.TimeoutExpired:
             return "too slow"
         if done.returncode or not result.exists():
@@ -158,11 +158,13 @@ def comparison(rows: Sequence[Row]) -> dict[str, float]:
 
 
 def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
-    cases = {"A": "sheet A: clean, white noise 0.13 mm", "D": "sheet D: a fifth hidden, outliers, a wall, a second sheet",
+    cases = {"A": "sheet A: clean, white noise 0.13 mm",
+             "D": "sheet D: a fifth hidden, outliers, a wall, a second sheet",
              "E": "sheet E: as D, noise correlated over 1.5 mm"}
     tables = []
     for case, text in cases.items():
-        best = {key: min(row[case][key] for row in data["rows"] if key in row[case]) for key in ("true_mean", "seconds")}
+        best = {key: min(row[case][key] for row in data["rows"] if key in row[case])
+                for key in ("true_mean", "seconds")}
         rows = []
         for row in data["rows"]:
             figures = row[case]
@@ -184,11 +186,12 @@ def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
         ["true mean on D, best general peer ÷ robust", f"{figures['best_peer_to_robust_on_D']:.1f} ×"],
         ["true mean on A, robust ÷ best general peer", f"{figures['robust_to_best_peer_on_A']:.2f}"]])
     skipped = [f"Not run: {name} ({reason})." for name, reason in data["skipped"].items()]
-    text = ("A plane sheet of 75 × 70 mm, its deformed surface known as a formula; 42,087 points before gaps and clutter. "
-            "Seconds and MB are of the method alone, beyond its imports and the cloud. Peers get the cloud as it comes; "
-            "those that cannot take all of it get a random part.")
-    return [Section("The same clouds through every method", (text, *skipped), (Picture(_plot(folder, data["rows"]),
-            "Accuracy against time on the clean and on the dirty sheet; lower left is better."),), (summary, *tables)),
+    text = ("A plane sheet of 75 × 70 mm, its deformed surface known as a formula; 42,087 points before gaps and "
+            "clutter. Seconds and MB are of the method alone, beyond its imports and the cloud. Peers get the cloud as "
+            "it comes; those that cannot take all of it get a random part.")
+    picture = Picture(_plot(folder, data["rows"]),
+                      "Accuracy against time on the clean and on the dirty sheet; lower left is better.")
+    return [Section("The same clouds through every method", (text, *skipped), (picture,), (summary, *tables)),
             Section("Size and result", tables=(abilities,))]
 
 

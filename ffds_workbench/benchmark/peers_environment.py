@@ -38,7 +38,8 @@ def make(folder: Path, package: str, module: str) -> Environment:
     if _imports(python, module):
         return Environment(python)
     for step, command in (
-            ("no virtual environment could be made", [sys.executable, "-m", "venv", "--system-site-packages", str(folder)]),
+            ("no virtual environment could be made",
+             [sys.executable, "-m", "venv", "--system-site-packages", str(folder)]),
             ("it could not be installed", [str(python), "-m", "pip", "install", "--quiet", package])):
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=_SECONDS, check=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import tracemalloc
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from ..registration.splines import Array
 from . import page, style
 from .interleaved import best_cpu_seconds, median_seconds
 from .page import Picture, Section, Table
-from .paper_case import NOISE, SIZE, lifted, sheet
+from .sheet import NOISE, nominal, scan
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]
@@ -49,26 +50,19 @@ def run(folder: Path, progress: Progress) -> str:
     return page.write(folder, "scaling", "Scaling", _sections(folder, data), data)
 
 
-def cloud(count: int, seed: int = 1) -> Array:
-    """A scan of the deformed sheet with noise; (count, 3)."""
-    rng = np.random.default_rng(seed)
-    points = lifted(rng.uniform((0, 0), SIZE, (count, 2)))
-    points[:, 2] += rng.normal(0, NOISE, count)
-    return points
-
-
 def over_points(progress: Progress) -> list[Row]:
     """Processor seconds and peak memory of the methods on one face over the number of scan points.
 
     All sizes take turns, and the shortest time counts: a busy moment of the machine must not bend the curve.
     """
-    face = sheet()
-    scans = {count: cloud(count) for count in POINTS}
+    face = nominal()
+    scans = {count: scan("A", 1, count) for count in POINTS}
     jobs: dict[str, Callable[[], Any]] = {}
-    for count, scan in scans.items():
-        jobs |= {f"ffds {count}": lambda scan=scan: register_ffds(face, scan, (10, 10), 400),
-                 f"robust {count}": lambda scan=scan: register_robust(face, scan),
-                 f"kdtree {count}": lambda scan=scan: cKDTree(scan), f"read {count}": lambda scan=scan: scan.sum()}
+    for count, points in scans.items():
+        jobs |= {f"ffds {count}": lambda points=points: register_ffds(face, points, (10, 10), 400),
+                 f"robust {count}": lambda points=points: register_robust(face, points),
+                 f"kdtree {count}": lambda points=points: cKDTree(points),
+                 f"read {count}": lambda points=points: points.sum()}
     progress(f"Scaling: {POINTS[0]:,} to {POINTS[-1]:,} points")
     seconds = best_cpu_seconds(jobs, _ROUNDS)
     rows = []
@@ -80,14 +74,15 @@ def over_points(progress: Progress) -> list[Row]:
 
 def over_lattices(progress: Progress) -> list[Row]:
     """Seconds over the lattice size, 100k points; four source points per control point where the method takes some."""
-    face, scan = sheet(), cloud(_LATTICE_POINTS)
+    face, points = nominal(), scan("A", 1, _LATTICE_POINTS)
     rows = []
     for n in LATTICES:
         progress(f"Scaling: lattice {n} × {n}")
-        jobs: dict[str, Callable[[], Any]] = {"ffds": lambda: register_ffds(face, scan, (n, n), 4 * n * n),
-                                              "robust": lambda: register_robust(face, scan, (n, n))}
+        jobs: dict[str, Callable[[], Any]] = {
+            "ffds": partial(register_ffds, face, points, (n, n), 4 * n * n),
+            "robust": partial(register_robust, face, points, (n, n))}
         if n <= _LARGEST_VOLUME:
-            jobs["ffd_hsu"] = lambda: register_ffd(face, scan, (n, n), 4 * n * n)
+            jobs["ffd_hsu"] = partial(register_ffd, face, points, (n, n), 4 * n * n)
         row: Row = {"lattice": n, "control_points": n * n}
         for name, job in jobs.items():
             try:
@@ -103,10 +98,10 @@ def over_faces(progress: Progress) -> list[Row]:
     rows = []
     for count in FACES:
         progress(f"Scaling: {count} faces")
-        shape, scan = tiles(round(np.sqrt(count)))
+        shape, points = tiles(round(np.sqrt(count)))
         start = time.perf_counter()
-        timing = api.register(shape, scan).report["timing"]
-        rows.append({"faces": count, "points": len(scan), **timing, "total": time.perf_counter() - start})
+        timing = api.register(shape, points).report["timing"]
+        rows.append({"faces": count, "points": len(points), **timing, "total": time.perf_counter() - start})
     return rows
 
 
@@ -155,7 +150,7 @@ def _exponents(rows: Sequence[Row], over: str, names: Any) -> dict[str, float]:
 
 def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
     further, exponents = data["ns_per_further_point"], data["exponents"]
-    points = Table("One face over the number of scan points: processor time, best of four turns, MB beyond the input, and ratios",
+    points = Table("One face over the number of scan points: processor time, best of four; MB beyond the input",
                    ("points", *(f"{title}, ms" for title in _NAMES.values()), "ffds, MB", "robust, MB",
                     "ffds ÷ k-d tree", "robust ÷ k-d tree", "robust ÷ reading"),
                    [[f"{row['points']:,}", *(f"{1e3 * row[name]:.3g}" for name in _NAMES), f"{row['ffds_mb']:.0f}",
@@ -176,7 +171,8 @@ def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
                   ("faces", *stages, "total", "total ÷ faces"),
                   [[str(row["faces"]), *(f"{row.get(stage, 0):.2f}" for stage in stages), f"{row['total']:.2f}",
                     f"{row['total'] / row['faces']:.3f}"] for row in data["faces"]])
-    return [Section("Over scan points", (), (Picture(_plot(folder, data["points"]), "Time on one face."),), (points, slope)),
+    picture = Picture(_plot(folder, data["points"]), "Time on one face.")
+    return [Section("Over scan points", (), (picture,), (points, slope)),
             Section("Over the lattice", ("Four source points per control point for ffds and ffd-hsu.",),
                     tables=(lattice,)),
             Section("Over faces", ("A flat shell of square faces that share their edges, scanned after a smooth warp; "

@@ -50,9 +50,11 @@ def section(data: dict[str, Any]) -> str:
     parts = ["Generated from these runs; all clouds are simulated, and the figures are of one machine in one run: "
              "compare ratios, not milliseconds."]
     if "paper" in data:
-        parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.", _paper(data["paper"]).markdown()]
+        parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.",
+                  _paper(data["paper"]).markdown()]
     if "peers" in data:
-        parts += ["`./ffds benchmark peers --out DIR` runs what one would take instead.", _peers(data["peers"]).markdown()]
+        parts += ["`./ffds benchmark peers --out DIR` runs what one would take instead.",
+                  _peers(data["peers"]).markdown()]
         parts += [f"Not run: {name} ({why})." for name, why in data["peers"]["skipped"].items()]
     if "scaling" in data:
         parts += ["`./ffds benchmark scaling --out DIR` grows the scan.", _scaling(data["scaling"]).markdown()]
@@ -64,10 +66,13 @@ def section(data: dict[str, Any]) -> str:
 
 def _paper(data: dict[str, Any]) -> Table:
     ratios = data["ratios"]
-    rows = [["solve, dense FFD-HSU ÷ FFDS", f"{ratios['ffd_hsu_to_ffds']:.0f} ×",
+    rows = [["solve, dense FFD-HSU ÷ FFDS",
+             f"{ratios['ffd_hsu_to_ffds']:.0f} ×",
              f"{ratios['published']:.0f} × (dense against dense)"],
-            ["solve, dense FFD-HSU ÷ dense FFDS", f"{ratios['ffd_hsu_to_ffds_dense']:.0f} ×", f"{ratios['published']:.0f} ×"],
-            ["neighbours and solve, 104,705 points ÷ one k-d tree build", f"{ratios['whole_step_to_kdtree_build']:.2f}", ""]]
+            ["solve, dense FFD-HSU ÷ dense FFDS",
+             f"{ratios['ffd_hsu_to_ffds_dense']:.0f} ×", f"{ratios['published']:.0f} ×"],
+            ["neighbours and solve, 104,705 points ÷ one k-d tree build",
+             f"{ratios['whole_step_to_kdtree_build']:.2f}", ""]]
     for figure, what in (("figure_6b", "exact cloud"), ("figure_9b", "noise 0.13 mm, gaps")):
         row = next(row for row in data[figure] if row["control_points_per_direction"] == 10)
         for method, title in TITLES.items():
@@ -89,6 +94,8 @@ def _figures(case: dict[str, Any]) -> list[str]:
 def _scaling(data: dict[str, Any]) -> Table:
     last = data["points"][-1]
     rows = [[name, f"{1e3 * last[name]:.0f}", f"{data['ns_per_further_point'][name]['from_1m_to_5m']:.0f}",
-             f"{data['ns_per_further_point'][name]['ratio']:.2f}", f"{last[f'{name}_mb']:.0f}" if name != "kdtree" else ""]
+             f"{data['ns_per_further_point'][name]['ratio']:.2f}",
+             f"{last[f'{name}_mb']:.0f}" if name != "kdtree" else ""]
             for name in ("ffds", "robust", "kdtree")]
-    return Table(f"{last['points']:,} points on one face", ("", "ms", "ns per further point", "÷ those up to 1M", "MB"), rows)
+    head = ("", "ms", "ns per further point", "÷ those up to 1M", "MB")
+    return Table(f"{last['points']:,} points on one face", head, rows)

@@ -190,7 +190,7 @@ def solve(lattice: VolumeLattice, source: FaceSource, displacements: Array) -> A
 
 
 def _grid_factors(lattice: VolumeLattice, source: FaceSource) -> tuple[Array, Array, Array] | None:
-    """s of the grid's rows, t of its columns and the one u of them all, if the whole grid is parallel to the lattice."""
+    """s of the grid's rows, t of its columns and the one u of all, if the whole grid is parallel to the lattice."""
     if not source.on_face.all():
         return None
     stu = lattice.parameters(source.points.reshape(-1, 3)).reshape(source.points.shape)
@@ -208,7 +208,8 @@ def on_surface(lattice: VolumeLattice, control_displacements: Array, surface: Sp
     """
     while True:
         control = displacement_lattice(surface, size)
-        u, v = (np.linspace(a, b, 3 * n + 2) for a, b, n in zip(surface.range[::2], surface.range[1::2], size, strict=True))
+        u0, u1, v0, v1 = surface.range
+        u, v = np.linspace(u0, u1, 3 * size[0] + 2), np.linspace(v0, v1, 3 * size[1] + 2)
         points = surface.on_grid(u, v).reshape(-1, 3)
         values = lattice.displacement(control_displacements, points)
         everywhere = np.ones((len(u), len(v)), dtype=bool)

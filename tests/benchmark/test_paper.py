@@ -10,6 +10,7 @@ import pytest
 from ffds_workbench.benchmark import page, paper_case, paper_figures
 from ffds_workbench.benchmark.interleaved import best_cpu_seconds, median_seconds
 from ffds_workbench.benchmark.paper_methods import METHODS, Judge
+from ffds_workbench.benchmark.sheet import SIZE, height, nominal
 from ffds_workbench.registration import ffds
 from ffds_workbench.registration.control_lattice import displacement_lattice
 from ffds_workbench.registration.result import FaceRegistration
@@ -31,9 +32,9 @@ def test_clouds_have_the_papers_sizes(virtual):
 
 def test_true_distance_is_the_distance_along_the_normal():
     rng = np.random.default_rng(1)
-    xy = rng.uniform((0, 0), paper_case.SIZE, (500, 2))
+    xy = rng.uniform((0, 0), SIZE, (500, 2))
     h = 1e-5
-    gx, gy = ((paper_case.height(xy + e) - paper_case.height(xy - e)) / (2 * h) for e in np.array([[h, 0], [0, h]]))
+    gx, gy = ((height(*(xy + e).T) - height(*(xy - e).T)) / (2 * h) for e in np.array([[h, 0], [0, h]]))
     normal = np.column_stack([-gx, -gy, np.ones(500)])
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     offset = rng.uniform(-1, 1, 500)
@@ -44,11 +45,11 @@ def test_true_distance_is_the_distance_along_the_normal():
 
 
 def test_a_perfect_result_reaches_the_floor_and_no_less(virtual):
-    face = paper_case.sheet()
+    face = nominal()
     control = displacement_lattice(face.surface, (24, 24))
     u, v = np.linspace(0, 75, 60), np.linspace(0, 70, 60)
     uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
-    values = np.column_stack([np.zeros((len(uv), 2)), paper_case.height(uv)])
+    values = np.column_stack([np.zeros((len(uv), 2)), height(*uv.T)])
     points = ffds.solve(control, u, v, np.ones((60, 60), dtype=bool), values)
     perfect = FaceRegistration("Face1", control.field(points), 0, 1.0, 0.0)
     figures = Judge(virtual).accuracy(perfect)
@@ -61,8 +62,8 @@ def test_a_perfect_result_reaches_the_floor_and_no_less(virtual):
 @pytest.mark.parametrize("method", METHODS)
 def test_methods_improve_on_the_nominal(virtual, method):
     figures = Judge(virtual).accuracy(METHODS[method](virtual.target, (10, 10), 400))
-    nominal = paper_case.true_distance(paper_case.sheet().surface(np.random.default_rng(0).uniform(0, 70, (2000, 2))))
-    assert figures.true_mean < 0.01 * nominal.mean()
+    before = paper_case.true_distance(nominal().surface(np.random.default_rng(0).uniform(0, 70, (2000, 2))))
+    assert figures.true_mean < 0.01 * before.mean()
 
 
 def test_solve_times_name_every_competitor(virtual, monkeypatch):
@@ -84,8 +85,8 @@ def test_timing_takes_turns():
 def test_page_holds_tables_and_pictures(tmp_path):
     (tmp_path / "dot.png").write_bytes(b"\x89PNG")
     table = page.Table("Figures <1>", ("a", "b"), [("1", "2")])
-    text = page.write(tmp_path, "x", "Title", [page.Section("S", ("text",), (page.Picture("dot.png", "a dot"),), (table,))],
-                      {"k": [1.5]})
+    section = page.Section("S", ("text",), (page.Picture("dot.png", "a dot"),), (table,))
+    text = page.write(tmp_path, "x", "Title", [section], {"k": [1.5]})
     assert "| 1 | 2 |" in text and json.loads((tmp_path / "x.json").read_text()) == {"k": [1.5]}
     html = (tmp_path / "x.html").read_text()
     assert "Figures &lt;1&gt;" in html and "data:image/png;base64," in html

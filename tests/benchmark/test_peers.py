@@ -5,21 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import peers, peers_cases, peers_environment
+from ffds_workbench.benchmark import peers, peers_environment
 from ffds_workbench.benchmark.paper_case import true_distance
+from ffds_workbench.benchmark.sheet import scan
 
 
 def test_clouds_are_what_they_say():
-    clean, dirty, correlated = (peers_cases.CASES[name](1) for name in "ADE")
+    clean, dirty, correlated = (np.random.default_rng(0).permutation(scan(kind, 1)) for kind in peers.CASES)
     assert len(clean) == 42_087 and true_distance(clean[:3000]).max() < 0.8      # 5.5 σ
     for cloud in (dirty, correlated):
-        assert 0.86 * 42_087 < len(cloud) < 0.94 * 42_087                        # a fifth gone, a tenth of clutter added
+        assert 0.86 * 42_087 < len(cloud) < 0.94 * 42_087      # a fifth gone, a tenth of clutter added
         assert 0.08 < np.mean(true_distance(cloud[:3000]) > 1.0) < 0.13
 
 
 @pytest.mark.parametrize("name", ["robust", "ffds", "spline_fit"])
 def test_worker_runs_what_is_at_hand(name):
-    done = peers.work(name, peers_environment.here(), peers_cases.clean(1, 5000), 60)
+    done = peers.work(name, peers_environment.here(), scan("A", 1, 5000), 60)
     assert not isinstance(done, str), done
     assert true_distance(done["moved"]).mean() < 0.5 and done["seconds"] > 0 and done["megabytes"] >= 0
 

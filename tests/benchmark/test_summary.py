@@ -12,7 +12,8 @@ from ffds_workbench.errors import InputError
 
 def test_section_replaces_what_stands_between_the_marks(tmp_path):
     further = {"from_100k_to_1m": 50.0, "from_1m_to_5m": 60.0, "ratio": 1.2}
-    data = {"points": [{"points": 5_000_000, "ffds": 0.3, "robust": 0.5, "kdtree": 2.5, "ffds_mb": 300, "robust_mb": 500}],
+    last = {"points": 5_000_000, "ffds": 0.3, "robust": 0.5, "kdtree": 2.5, "ffds_mb": 300, "robust_mb": 500}
+    data = {"points": [last],
             "ns_per_further_point": dict.fromkeys(("ffds", "robust", "kdtree"), further)}
     (tmp_path / "scaling.json").write_text(json.dumps(data))
     readme = tmp_path / "README.md"

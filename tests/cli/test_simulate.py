@@ -27,7 +27,7 @@ def test_scan_and_truth_are_written(ffds, box, tmp_path):
     assert truth["views"].shape == (2, 3) and truth["edges"].shape == (12, 200, 3)
     assert np.array_equal(truth["nominal"], truth["warped"])
     top = np.abs(points[:, 2] - 10) < 0.3
-    assert 4000 < top.sum()      # 40 × 30 mm at 0.5 mm is 4800 from above alone
+    assert top.sum() > 4000      # 40 × 30 mm at 0.5 mm is 4800 from above alone
 
 
 @pytest.mark.parametrize("wrong", [["--view", "0,0,0"], ["--spacing", "0"], ["--outliers", "2"], ["--view", "1,2"],

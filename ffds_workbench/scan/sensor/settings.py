@@ -76,7 +76,7 @@ class SensorSettings:
         if not self.spacing > 0:
             raise InputError(f"The spacing of a simulated scan must be positive, not {self.spacing:g} mm.")
         if min(self.noise, self.correlation, self.pose_error, self.pose_error_angle, self.edge_band, self.holes) < 0:
-            raise InputError("Noise, correlation, holes, edge band and pose error of a simulated scan cannot be negative.")
+            raise InputError("Noise, correlation, holes, edge band and pose error of a scan cannot be negative.")
         for name, share in (("outliers", self.outliers), ("dropout", self.edge_dropout),
                             ("correlated share", self.correlated_share)):
             if not 0 <= share <= 1:

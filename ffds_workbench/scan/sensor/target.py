@@ -25,7 +25,7 @@ _MOST_LINES = 700
 
 @dataclass(frozen=True)
 class Samples:
-    """Points on the faces of a target: positions (n, 3), outward unit normals (n, 3), face index (n,), (u, v) (n, 2)."""
+    """Points on a target's faces: positions (n, 3), outward unit normals (n, 3), face index (n,), (u, v) (n, 2)."""
 
     points: Array
     normals: Array

@@ -107,9 +107,9 @@ def _sheet(target: Target, nominal: Array, warped: Array, face: NDArray[np.intp]
         distance.append(foot(target, j, warped[mine], start[pair])[1])
     if not index:
         return empty, empty, np.zeros(0)
-    index, opposite, distance = (np.concatenate(parts) for parts in (index, opposite, distance))
-    pick = rng.permutation(len(index))[:_SHEET_POINTS]
-    return index[pick], opposite[pick], distance[pick]
+    pairs, faces, distances = np.concatenate(index), np.concatenate(opposite), np.concatenate(distance)
+    pick = rng.permutation(len(pairs))[:_SHEET_POINTS]
+    return pairs[pick], faces[pick], distances[pick]
 
 
 def _normals(target: Target, i: int, uv: Array) -> Array:
