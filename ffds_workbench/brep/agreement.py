@@ -14,11 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from ..registration.splines import Array, SplineSurface
 from .cutoff import step
 from .radial import RadialField, interpolate
-from .samples import EdgeSamples, along_edge, join
+from .samples import EdgeSamples, along_edge, join, side_lengths
 from .topology import edge_traces
 from .workpiece import Workpiece
 
@@ -60,11 +61,13 @@ class Rim:
     ----------
     samples : points along all edges of the edited faces
     displacement : (n, 3) what the faces agree on, in mm
+    dispute : (n,) how far in mm the faces are apart there, counting for each only what it has a say in; fades along the edges
     sides : for each edited face, its own displacement along its edges
     """
 
     samples: EdgeSamples
     displacement: Array
+    dispute: Array
     sides: dict[int, Side]
 
 
@@ -87,7 +90,33 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
     sides = {face: _side(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
     agreed = _along_edges(samples, sides)
     _close_at_vertices(workpiece, samples, sides, agreed)
-    return Rim(samples, agreed, sides)
+    sizes = [np.linalg.norm(side_lengths(workpiece.faces[face])) for face in sides]
+    dispute = _spread_out(samples.points, _dispute(sides, agreed), _SPREAD * float(np.mean(sizes)))
+    return Rim(samples, agreed, dispute, sides)
+
+
+def _dispute(sides: Mapping[int, Side], agreed: Array) -> Array:
+    """Largest distance in mm by which a face would have pulled the compromise elsewhere, (n,)."""
+    matrix = np.zeros((len(agreed), 3, 3))
+    for side in sides.values():
+        np.add.at(matrix, side.rows, _say(side.normals))
+    dispute = np.zeros(len(agreed))
+    for side in sides.values():
+        pull = np.einsum("nij,nj->ni", _say(side.normals), side.own - agreed[side.rows])
+        distance = np.linalg.norm(np.linalg.solve(matrix[side.rows], pull[:, :, None])[:, :, 0], axis=1)
+        np.maximum.at(dispute, side.rows, distance)
+    return dispute
+
+
+def _spread_out(points: Array, values: Array, radius: float) -> Array:
+    """For each point the largest value around it, fading linearly to 0 at the radius; values are taken in lots of 8."""
+    starts = np.arange(0, len(values), 8)
+    largest = np.maximum.reduceat(values, starts)
+    places = points[np.minimum(starts + 4, len(points) - 1)][largest > 0.0]
+    if len(places) == 0:
+        return values
+    fading = largest[largest > 0.0] * np.maximum(1.0 - cdist(points, places) / radius, 0.0)
+    return np.maximum(values, fading.max(axis=1))
 
 
 def _side(workpiece: Workpiece, face: int, displacement: SplineSurface, samples: EdgeSamples) -> Side:
@@ -135,11 +164,16 @@ def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int)
     place : (m,) the place that a face speaks for; every place has one or more
     own, normals : (m, 3) its displacement and its unit normal there
     """
-    say = normals[:, :, None] * normals[:, None, :] + _SLIDING * np.eye(3)
+    say = _say(normals)
     matrix, right = np.zeros((count, 3, 3)), np.zeros((count, 3))
     np.add.at(matrix, place, say)
     np.add.at(right, place, np.einsum("nij,nj->ni", say, own))
     return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+
+
+def _say(normals: Array) -> Array:
+    """What weight a face's displacement has in each direction: nnᵀ + s, (n, 3, 3)."""
+    return normals[:, :, None] * normals[:, None, :] + _SLIDING * np.eye(3)
 
 
 def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mapping[int, Side], agreed: Array) -> None:
@@ -162,14 +196,16 @@ def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mappin
     at_vertex = dict(zip(numbers.tolist(), _compromise(places, np.array(own), _unit(np.array(normals)), len(numbers)),
                          strict=True))
     offsets = {row: at_vertex[vertex] - agreed[row] for row, vertex in ends}
+    sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in sides}
     for edge in np.unique(samples.edges):
         rows = np.flatnonzero(samples.edges == edge)
         if len(rows) == 1:
             agreed[rows] += offsets[rows[0]]
             continue
+        size = max(sizes[face] for face in workpiece.topology.edge_faces[edge] if face in sizes)
         along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(samples.points[rows], axis=0), axis=1)))
         for end, distance in ((rows[0], along), (rows[-1], along[-1] - along)):
-            fade = min(along[-1], max(_GENTLE * float(np.linalg.norm(offsets[end])), _SPREAD * along[-1]))
+            fade = min(along[-1], max(_GENTLE * float(np.linalg.norm(offsets[end])), _SPREAD * size))
             agreed[rows] += (1.0 - step(distance / fade))[:, None] * offsets[end]
 
 
@@ -186,7 +222,7 @@ def _ends(workpiece: Workpiece, samples: EdgeSamples) -> list[tuple[int, int]]:
     return ends
 
 
-def spread(rim: Rim, face: int, size: float, tolerance: float) -> RadialField | None:
+def spread(rim: Rim, face: int, size: float, tolerance: float, part: float = 0.0) -> RadialField | None:
     """The correction of one face as a field that fades into it; None where it agrees with its neighbours already.
 
     Parameters
@@ -195,11 +231,12 @@ def spread(rim: Rim, face: int, size: float, tolerance: float) -> RadialField | 
     face : index of an edited face
     size : the face's size in mm
     tolerance : what counts as agreement, in mm
+    part : this part of the largest correction will do, too
     """
     side = rim.sides[face]
     correction = rim.displacement[side.rows] - side.own
     largest = np.linalg.norm(correction, axis=1).max()
     if largest <= tolerance:
         return None
-    return interpolate(rim.samples.points[side.rows], correction, np.full(len(side.rows), tolerance),
+    return interpolate(rim.samples.points[side.rows], correction, np.full(len(side.rows), max(tolerance, part * largest)),
                        max(_GENTLE * largest, _SPREAD * size), _MOST_CENTRES)

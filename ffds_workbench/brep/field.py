@@ -11,7 +11,7 @@ of them.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,13 +32,18 @@ from .workpiece import Workpiece, WorkpieceFace
 _SAMPLE = 0.004
 """Distance of samples on the edges of an edited face over the face's size."""
 _FIDELITY = 1e-5
-"""Largest distance in mm of the field from the registered displacement along the edges."""
+"""Largest distance in mm of the field from the registered displacement along the edges …"""
+_DISPUTE = 0.3
+"""… or this part of what edited faces differ by there, so that the field runs smoothly through what they dispute."""
 _FIDELITY_INSIDE = 0.02
 """The same inside an edited face, over the largest displacement: there it only serves what lies behind the face."""
-_CLOSE = 4e-5
-"""An edited face that is farther than this from the field along its edges, in mm, passes into it in a rim …"""
+_ROUGHLY = 0.2
+"""There, corrections of the edited faces count as far as this part of them."""
+_CLOSE = 2e-5
+"""What counts as equal to the field, in mm. An edited face gets a correction where it is not, …"""
 _RIM = 0.08, 5.0
-"""… that is so much of the face's size wide, and at least so many times the distance."""
+"""… and where that fails, passes into it in a rim that is so much of the face's size wide, and at least so many times
+the distance."""
 _SUPPORT = 0.6, 5.0
 """Support of the field: so much of the largest edited face's size plus so many times the largest displacement."""
 _LINES_PER_SUPPORT = 4.0
@@ -72,7 +77,7 @@ class EditedFace:
     Attributes
     ----------
     own : d, registered displacement over the face's (u, v)
-    correction : c, what makes it agree with its edited neighbours, or None
+    correction : c, what makes it equal the field along its edges where edited neighbours dispute them, or None
     rim : ρ, 0 along the edges where d + c is not close to the field, 1 away from them; None where it is close everywhere
     field : D
     """
@@ -141,16 +146,17 @@ def _in_one_body(workpiece: Workpiece, face_displacements: Mapping[int, SplineSu
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in face_displacements}
     rim = agree(workpiece, face_displacements, {face: _SAMPLE * size for face, size in sizes.items()})
     largest = max(_largest(displacement) for displacement in face_displacements.values())
-    corrections = {face: spread(rim, face, sizes[face], _FIDELITY) for face in face_displacements}
     support = _SUPPORT[0] * max(sizes.values()) + _SUPPORT[1] * largest
-    smooth, blends = _smooth_field(workpiece, face_displacements, samples, rim, corrections, sizes, largest, support)
+    smooth = _smooth_field(face_displacements, samples, sizes, rim, largest, support)
+    rim = replace(rim, displacement=smooth(rim.samples.points))
     edited_points = np.concatenate([rim.samples.points, *(s.points for s in samples.values())])
     held = held_edges(workpiece, frozenset(face_displacements), frozen, smooth, cKDTree(edited_points),
                       max(sizes.values()))
     field = LocalField(smooth, held.cutoff)
     result = {}
     for face, displacement in face_displacements.items():
-        edited = EditedFace(displacement, corrections[face], blends.get(face), field)
+        correction = spread(rim, face, sizes[face], _CLOSE)
+        edited = EditedFace(displacement, correction, _blend(rim, face, correction, sizes[face]), field)
         result[face] = FaceDisplacement(edited, *_lines_of_edit(workpiece.faces[face], displacement))
     for face in held.adapting:
         lines = _lines_of_field(workpiece.faces[face], field)
@@ -179,61 +185,33 @@ def _largest(displacement: SplineSurface) -> float:
                                 axis=2).max())
 
 
-def _smooth_field(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], samples: Mapping[int, FaceSamples],
-                  rim: Rim, corrections: Mapping[int, RadialField | None], sizes: Mapping[int, float], largest: float,
-                  support: float) -> tuple[RadialField, dict[int, Cutoff]]:
-    """Φ, and where edited faces have to pass into it.
-
-    Φ goes through the agreed displacement of the edges and the corrected displacement inside: loosely, but closely
-    along the edges of faces that follow it, and along all edges if an edited face passes into it.
-    """
+def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[int, FaceSamples],
+                  sizes: Mapping[int, float], rim: Rim, largest: float, support: float) -> RadialField:
+    """Φ, through the agreed displacement of the edges and, loosely, the displacement inside."""
     points, values = [rim.samples.points], [rim.displacement]
     for face, displacement in displacements.items():
         coarse = samples[face].coarse
-        inner = samples[face].points[coarse]
-        value = displacement(samples[face].uv[coarse])
-        correction = corrections[face]
+        inner, value = samples[face].points[coarse], displacement(samples[face].uv[coarse])
+        roughly = spread(rim, face, sizes[face], _FIDELITY_INSIDE * largest, _ROUGHLY)
         points.append(inner)
-        values.append(value if correction is None else value + correction(inner))
-    edges = len(rim.displacement)
+        values.append(value if roughly is None else value + roughly(inner))
     tolerances = np.full(sum(map(len, points)), _FIDELITY_INSIDE * largest)
-    followed = [edge for edge in np.unique(rim.samples.edges)
-                if not displacements.keys() >= set(workpiece.topology.edge_faces[edge])]
-    close = np.isin(rim.samples.edges, followed)
-    far = {face: _far(rim, face, corrections[face], rim.displacement) for face in displacements}
-    while True:
-        if any(where.any() for where in far.values()):
-            close[:] = True
-        tolerances[:edges][close] = _FIDELITY
-        smooth = interpolate(np.concatenate(points), np.concatenate(values), tolerances, support,
-                             most=min(1500, 600 + 150 * len(displacements)))
-        on_rim = np.where(close[:, None], smooth(rim.samples.points), rim.displacement)
-        far = {face: _far(rim, face, corrections[face], on_rim) for face in displacements}
-        if close.all() or not any(where.any() for where in far.values()):
-            return smooth, {face: _blend(rim, face, where, corrections[face], smooth, sizes[face])
-                            for face, where in far.items() if where.any()}
+    tolerances[:len(rim.dispute)] = np.maximum(_FIDELITY, _DISPUTE * rim.dispute)
+    return interpolate(np.concatenate(points), np.concatenate(values), tolerances, support,
+                       most=min(1500, 600 + 150 * len(displacements)), smooth=bool(rim.dispute.any()))
 
 
-def _own_along_rim(rim: Rim, face: int, correction: RadialField | None) -> Array:
-    """d + c at the samples of the face's edges, (m, 3) in mm."""
+def _blend(rim: Rim, face: int, correction: RadialField | None, size: float) -> Cutoff | None:
+    """The rim of an edited face along the edges where it is torn, or not close to the field for all its correction."""
     side = rim.sides[face]
-    return side.own if correction is None else side.own + correction(rim.samples.points[side.rows])
-
-
-def _far(rim: Rim, face: int, correction: RadialField | None, wanted: Array) -> NDArray[np.bool_]:
-    """Samples of the face's edges where its own displacement is torn, or not close to what is wanted on the rim; (m,)."""
-    side = rim.sides[face]
-    distance = np.linalg.norm(wanted[side.rows] - _own_along_rim(rim, face, correction), axis=1)
-    return side.torn | (distance > _CLOSE)
-
-
-def _blend(rim: Rim, face: int, far: NDArray[np.bool_], correction: RadialField | None, smooth: RadialField,
-           size: float) -> Cutoff:
-    """The rim of an edited face that passes into the field: along the edges where it is far from it."""
-    rows = rim.sides[face].rows
-    distance = np.linalg.norm(smooth(rim.samples.points[rows]) - _own_along_rim(rim, face, correction), axis=1)
-    edges = rim.samples.edges[rows]
-    samples = rim.samples.take(rows[np.isin(edges, edges[far])])
+    points = rim.samples.points[side.rows]
+    own = side.own if correction is None else side.own + correction(points)
+    distance = np.linalg.norm(rim.displacement[side.rows] - own, axis=1)
+    far = side.torn | (distance > 2.0 * _CLOSE)
+    if not far.any():
+        return None
+    edges = rim.samples.edges[side.rows]
+    samples = rim.samples.take(side.rows[np.isin(edges, edges[far])])
     reach = max(_RIM[0] * size, _RIM[1] * float(distance.max()))
     return Cutoff(samples.points, samples.lengths, np.maximum(reach, samples.lengths / SPACING))
 

@@ -17,6 +17,9 @@ from ..registration.splines import Array
 
 _FIRST_CENTRES = 40
 _RIDGE = 1e-13
+_MISFIT = 0.5
+_LOG_RIDGES = -6.0, 6.0
+_BISECTIONS = 6
 _BLOCK = 60_000
 """Kernel values at a time: small enough to stay in the processor's cache."""
 
@@ -67,7 +70,8 @@ class RadialField:
         return result
 
 
-def interpolate(points: Array, values: Array, tolerances: Array, support: float, most: int) -> RadialField:
+def interpolate(points: Array, values: Array, tolerances: Array, support: float, most: int,
+                smooth: bool = False) -> RadialField:
     """Radial field through as few of the points as reach the tolerances at all of them.
 
     Starts from a few points far apart and doubles them where the field misses, farthest points first, so that a smooth
@@ -79,6 +83,7 @@ def interpolate(points: Array, values: Array, tolerances: Array, support: float,
     tolerances : (n,) largest distance of the field from each value in mm
     support : support of the basis functions in mm
     most : largest number of centres; the tolerances are given up for it
+    smooth : values are noisy and the tolerances say how much: do not go through them, but past them by half that much
     """
     kernel = np.empty((min(most, len(points)), len(points)))
     spread = _Spread(points)
@@ -92,9 +97,27 @@ def interpolate(points: Array, values: Array, tolerances: Array, support: float,
         missed = np.linalg.norm(known.T @ coefficients - values, axis=1) > tolerances
         more = spread.pick(missed, min(len(chosen), most - len(chosen)))
         if len(more) == 0:
-            return RadialField(points[chosen], coefficients, support)
+            break
         kernel[len(chosen):len(chosen) + len(more)] = wendland(cdist(points[more], points) / support)
         chosen = np.concatenate([chosen, more])
+    if smooth:
+        coefficients = _smoothest(kernel[:len(chosen)], chosen, values, tolerances)
+    return RadialField(points[chosen], coefficients, support)
+
+
+def _smoothest(kernel: Array, chosen: NDArray[np.intp], values: Array, tolerances: Array) -> Array:
+    """Coefficients of the smoothing field whose misfit, over the tolerances, has a mean square of about `_MISFIT`².
+
+    Ridge λ · tolerance² on the diagonal, λ by bisection of its logarithm (Morozov's discrepancy principle).
+    """
+    low, high = _LOG_RIDGES
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        matrix = kernel[:, chosen] + np.diag(10.0**middle * tolerances[chosen] ** 2 + _RIDGE)
+        coefficients = cho_solve(cho_factor(matrix, lower=True), values[chosen])
+        misfit = np.linalg.norm(kernel.T @ coefficients - values, axis=1) / tolerances
+        low, high = (low, middle) if np.mean(misfit**2) > _MISFIT**2 else (middle, high)
+    return coefficients
 
 
 class _Spread:
