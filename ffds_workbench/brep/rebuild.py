@@ -150,25 +150,34 @@ class _Geometry:
         return NewEdge(new, _covering(old.tolerance, gap))
 
     def vertices(self, edges: Mapping[int, NewEdge]) -> dict[int, NewVertex]:
-        """New points and tolerances of all vertices of displaced faces."""
+        """New points and tolerances of all vertices of displaced faces.
+
+        A vertex is the mean of the ends that meet there; on the seam of a closed face it is that face's own point, as
+        its edges are that face's own curves (see `edge_curve`).
+        """
         ends: dict[int, list[Array]] = {}
+        on_seams: dict[int, list[Array]] = {}
         least: dict[int, float] = {}
         for edge, new in edges.items():
             traces = self._traces(edge)
             for vertex, orientation in self._instances.edge_ends[edge]:
                 least[vertex] = max(least.get(vertex, 0.0), new.tolerance)
-                if orientation in "+-":
-                    at = np.array([0.0 if orientation == "+" else 1.0])
-                    points = [trace.at(at) for trace in traces]
-                    if new.curve is not None:
-                        points.append(new.curve.poles[[0 if orientation == "+" else -1]])
-                    ends.setdefault(vertex, []).extend(points)
+                if orientation not in "+-":
+                    continue
+                end = 0.0 if orientation == "+" else 1.0
+                points = [trace.at(np.array([end])) for trace in traces]
+                on_seams.setdefault(vertex, []).extend(
+                    point for point, trace in zip(points, traces, strict=True) if trace.at_seam(end))
+                if new.curve is not None:
+                    points.append(new.curve.poles[[0 if orientation == "+" else -1]])
+                ends.setdefault(vertex, []).extend(points)
         staying = {vertex for edge, ends_of in enumerate(self._instances.edge_ends) if edge not in edges or self._stays(edge)
                    for vertex, _ in ends_of}
-        return {vertex: self._vertex(vertex, np.concatenate(ends[vertex]), least[vertex], vertex in staying)
+        return {vertex: self._vertex(vertex, np.concatenate(ends[vertex]), np.concatenate(on_seams[vertex] or ends[vertex]),
+                                     least[vertex], vertex in staying)
                 for vertex in ends}
 
-    def _vertex(self, vertex: int, ends: Array, least: float, stays: bool) -> NewVertex:
+    def _vertex(self, vertex: int, ends: Array, deciding: Array, least: float, stays: bool) -> NewVertex:
         instance = self._instances.vertices[vertex]
         old = self._brep.shapes[instance.shape].geometry
         assert isinstance(old, VertexPoint)
@@ -176,7 +185,7 @@ class _Geometry:
             matrix = self._locations.matrix(instance.place)
             point = matrix[:3, :3] @ np.array(old.point) + matrix[:3, 3]
         else:
-            point = ends.mean(axis=0)
+            point = deciding.mean(axis=0)
         distance = float(np.linalg.norm(ends - point, axis=1).max())
         tolerance = max(old.tolerance, 1.05 * distance + 2e-8, least)
         return NewVertex(None if stays else point, tolerance)
