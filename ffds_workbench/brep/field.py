@@ -198,7 +198,7 @@ def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[i
     tolerances = np.full(sum(map(len, points)), _FIDELITY_INSIDE * largest)
     tolerances[:len(rim.dispute)] = np.maximum(_FIDELITY, _DISPUTE * rim.dispute)
     return interpolate(np.concatenate(points), np.concatenate(values), tolerances, support,
-                       most=min(1500, 600 + 150 * len(displacements)), smooth=bool(rim.dispute.any()))
+                       most=min(1500, 600 + 150 * len(displacements)), smooth=bool(rim.dispute.max() > _FIDELITY))
 
 
 def _blend(rim: Rim, face: int, correction: RadialField | None, size: float) -> Cutoff | None:

@@ -143,7 +143,7 @@ def test_faces_registered_apart_meet_and_keep_their_interior():
     moved = local_displacements(part, own)
     assert largest_disagreement(part, moved) <= (2 * FIDELITY, 0.0)
     uv = np.array([part.faces[top].own_surface.parameter(Vector(x, y, 20)) for x in (5, 20, 35) for y in (8, 32)])
-    np.testing.assert_allclose(moved[top].evaluate(uv, part.faces[top].at(uv)), own[top](uv), atol=1e-5)
+    np.testing.assert_allclose(moved[top].evaluate(uv, part.faces[top].at(uv)), own[top](uv), atol=FIDELITY)
 
 
 @pytest.mark.parametrize("shape", [Part.makeSphere(15), Part.makeCone(12, 0, 25), Part.makeCylinder(10, 30)],
