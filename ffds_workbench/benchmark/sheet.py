@@ -45,8 +45,8 @@ def scan(kind: str, seed: int, points: int = POINTS) -> Array:
 
     Parameters
     ----------
-    kind : "A": noise alone, σ = 0.13 mm in z. "D": a fifth of the area hidden, 2 % outliers, 4 % on a wall below one side
-        and 4 % on a sheet 1.5 mm below another. "E": D with noise that is correlated over 1.5 mm
+    kind : "A": noise alone, σ = 0.13 mm in z. "D": a fifth of the area hidden, 2 % outliers, 4 % on a wall below one
+        side and 4 % on a sheet 1.5 mm below another. "E": D with noise that is correlated over 1.5 mm
     """
     random = np.random.default_rng(seed)
     x, y = random.uniform((0, 0), SIZE, (points, 2)).T
@@ -96,10 +96,9 @@ class Bend:
 
     def edge_deviation(self, displacement: SplineSurface) -> Array:
         """Distances of the true border from the deformed sheet's border."""
-        border = np.concatenate([np.stack([t * SIZE[0], np.full_like(t, y)], axis=1) for t in [np.linspace(0, 1, _BORDER)]
-                                 for y in (0.0, SIZE[1])]
-                                + [np.stack([np.full_like(t, x), t * SIZE[1]], axis=1) for t in [np.linspace(0, 1, _BORDER)]
-                                   for x in (0.0, SIZE[0])])
+        t, zero, one = np.linspace(0, 1, _BORDER), np.zeros(_BORDER), np.ones(_BORDER)
+        sides = ((t, zero), (t, one), (zero, t), (one, t))
+        border = np.concatenate([np.stack(side, axis=1) for side in sides]) * SIZE
         reached = np.concatenate([border, np.zeros((len(border), 1))], axis=1) + displacement(border)
         true = self.at(border[:, 0], border[:, 1])
         return np.array([_to_polyline(true[k], reached[k]) for k in np.split(np.arange(len(border)), 4)]).ravel()

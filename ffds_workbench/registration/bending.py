@@ -43,7 +43,7 @@ def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: N
     form, curl, dual, inverse = _tensors(s_u, s_v, s_uu, s_uv, s_vv, normal)
     bases_u = [basis_matrix(lattice.knots_u, u, derivative=k) for k in range(3)]
     bases_v = [basis_matrix(lattice.knots_v, v, derivative=k) for k in range(3)]
-    energy: Array | float = 0.0
+    energy = np.zeros((layout.band + 1, layout.size))
     for p, (pu, pv) in enumerate(_ORDERS):
         for q, (qu, qv) in enumerate(_ORDERS[: p + 1]):
             grids = _density(p, q, components, form, curl, dual, inverse, normal) * cell

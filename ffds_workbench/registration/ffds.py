@@ -7,6 +7,7 @@ S is the source shape (the nominal face), T the target (the scan); all lengths i
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import RefusedError
 from .control_lattice import ControlLattice, displacement_lattice
@@ -54,7 +55,7 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (1
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 
-def solve(control: ControlLattice, u: Array, v: Array, on_face: Array, values: Array) -> Array:
+def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_], values: Array) -> Array:
     """Free control points ΔP̃ = B⁺ Δp that move the source points by Δp in the least-squares sense (Eq. 3 and 4).
 
     Parameters
@@ -94,7 +95,7 @@ def pseudo_inverse(matrix: Array) -> Array:
     return np.asarray(np.linalg.pinv(matrix, rcond=SMALLEST_SINGULAR_VALUE))
 
 
-def equidistant_grid(face: FaceGeometry, count: int) -> tuple[Array, Array, Array]:
+def equidistant_grid(face: FaceGeometry, count: int) -> tuple[Array, Array, NDArray[np.bool_]]:
     """About ``count`` points on the face, equidistant along u and along v.
 
     Returns
@@ -118,7 +119,7 @@ def _equidistant(x: Array, steps: Array, count: int, closed: bool) -> Array:
     return np.interp(np.linspace(0, length[-1], count, endpoint=not closed), length, x)
 
 
-def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: Array, vectors: Array) -> Array:
+def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: NDArray[np.bool_], vectors: Array) -> Array:
     """Components of vectors at the source points along the nominal normal, (q,)."""
     derivatives = [face.surface.derivative(*d) for d in ((1, 0), (0, 1))]
     tangent_u, tangent_v = (d.on_grid(u, v)[on_face] for d in derivatives)
@@ -140,5 +141,5 @@ def check_coverage(face: FaceGeometry, distance: Array, reach: float) -> float:
     if coverage < _LEAST_COVERAGE:
         raise RefusedError(
             f"The scan does not lie on {face.name}: only {coverage:.0%} of its source points have a scan point within "
-            f"{reach:g} mm (median distance {np.median(distance):.4g} mm); check the unit and the alignment of the scan.")
+            f"{reach:g} mm (median distance {np.median(distance):.4g} mm); check the scan's unit and alignment.")
     return coverage

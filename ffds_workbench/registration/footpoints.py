@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .raster import Raster
-from .splines import Array, SplineSurface
+from .splines import Array
 
 Index = NDArray[np.intp]
 Located = tuple[Array, Array, Array, NDArray[np.bool_]]
@@ -99,7 +99,7 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
     """
     locate = _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
     kept = []
-    for first in range(0, len(points), _CHUNK):
+    for first in range(0, max(1, len(points)), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach
         for a, count, periodic in zip((x, y), raster.shape, raster.periodic, strict=True):
@@ -165,7 +165,7 @@ def _curved_locator(raster: Raster, reach: float) -> Locator:
 
 
 def _linear(raster: Raster, points: Array, cell: Index) -> Array:
-    """Cell coordinates near the given points as linear functions of the position: (8, n), x: constant and gradient, y."""
+    """Cell coordinates near the given points as linear functions of the position: x: constant, gradient; y; (8, n)."""
     for _ in range(2):
         x, y, height, _ = newton_in_cells(raster, points, cell, 1)
         cell = _cell(raster, x, y)
@@ -196,9 +196,7 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
     In the principal frame of a cell, with (x₁, x₂, z) the point and k₁, k₂ the curvatures, the foot point is at
     sᵢ = xᵢ / (1 − z kᵢ) and the height z − ½ Σ kᵢ xᵢ sᵢ, up to third order.
     """
-    for step in range(steps):
-        if step:
-            cell = _cell(raster, x, y)
+    for left in range(steps - 1, -1, -1):
         c = raster.table.take(cell, axis=1)
         r = points - c[0:3]
         x1, x2, z = (r[0] * c[k] + r[1] * c[k + 1] + r[2] * c[k + 2] for k in (3, 6, 9))
@@ -208,13 +206,17 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
         dx, dy = c[14] * s1 + c[15] * s2, c[16] * s1 + c[17] * s2
         x = c[18] + np.minimum(np.maximum(dx, -_LONGEST_STEP), _LONGEST_STEP)
         y = c[19] + np.minimum(np.maximum(dy, -_LONGEST_STEP), _LONGEST_STEP)
+        if left:
+            cell = _cell(raster, x, y)
     height = z - 0.5 * (c[12] * x1 * s1 + c[13] * x2 * s2)
     return x, y, height, unique & (np.maximum(np.abs(dx), np.abs(dy)) <= _SETTLED)
 
 
 def _cell(raster: Raster, x: Array, y: Array) -> Index:
     """The cell of cell coordinates, the nearest one where they lie outside the range."""
-    i, j = (np.clip(np.floor(raster.wrapped(a, k)), 0, raster.shape[k] - 1).astype(np.intp) for k, a in enumerate((x, y)))
-    i *= raster.shape[1]
+    m, n = raster.shape
+    i = np.clip(np.floor(raster.wrapped(x, 0)), 0, m - 1).astype(np.intp)
+    j = np.clip(np.floor(raster.wrapped(y, 1)), 0, n - 1).astype(np.intp)
+    i *= n
     i += j
     return i

@@ -32,6 +32,8 @@ _FOLDS = 4
 _TOLERANCE = 0.01
 """Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
 _ALWAYS, _PATIENCE = 8, 2
+_OUTLIER = 16.0
+"""Squared residuals count up to this many variances: one stray layer must not decide."""
 _NODES = 100
 
 
@@ -113,10 +115,10 @@ def _folds(raster: Raster, layers: Layers, weights: Array) -> _Sample:
 
 
 def _held_out(lattice: ControlLattice, raster: Raster, sample: _Sample, stiffness: float) -> float:
-    """Mean squared residual of the folds, each predicted by a field of heights fitted to the others."""
+    """Mean squared residual of the folds in units of their variance, each predicted by a field fitted to the others."""
     root = np.sqrt(sample.weight)
     rows = ((lattice.basis_u(sample.u) * root[:, None])[:, :, None] * lattice.basis_v(sample.v)[:, None])
-    rows, heights = rows.reshape(len(root), -1), root * sample.height
+    rows, heights = rows.reshape(len(root), lattice.unknown.size), root * sample.height
     parts = [(part, y, part.T @ part, part.T @ y) for part, y in
              ((rows[a:b], heights[a:b]) for a, b in zip(sample.edges[:-1], sample.edges[1:], strict=True))]
     matrix = sum((p[2] for p in parts), start=stiffness * _flat_bending(raster, lattice))
@@ -124,8 +126,9 @@ def _held_out(lattice: ControlLattice, raster: Raster, sample: _Sample, stiffnes
     matrix[np.diag_indices_from(matrix)] += 1e-9 * np.trace(matrix) / len(matrix) + 1e-9
     squared = 0.0
     for part, y, gram, moment in parts:
-        squared += float(np.sum((y - part @ np.linalg.solve(matrix - gram, right - moment)) ** 2))
-    return squared / max(float(sample.weight.sum()), 1e-300)
+        residual = y - part @ np.linalg.solve(matrix - gram, right - moment)
+        squared += float(np.minimum(residual**2, _OUTLIER).sum())
+    return squared / max(len(heights), 1)
 
 
 def _flat_bending(raster: Raster, lattice: ControlLattice) -> Array:

@@ -20,7 +20,7 @@ _MOST_CELLS = 65535
 _MOST_PAIRS = 130_000
 _SAMPLE = 128
 _SLACK = 1e-9
-"""Relative slack of distance bounds, far above rounding: a cell kept in vain costs time, one dropped would cost truth."""
+"""Relative slack of distance bounds, far above rounding: a cell kept in vain costs time, one dropped costs truth."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,8 @@ def _search(cells: _Cells, queries: Array) -> tuple[Array, Index]:
 def _near_queries(columns: Array, queries: Array) -> tuple[Array, Index | None]:
     """The part of the scan that can hold an answer: the queries' box, grown by an upper bound of all distances."""
     sample = columns[:, :: max(1, columns.shape[1] // _SAMPLE)]
-    reach = np.sqrt(np.max(np.min(sum((queries[:, a, None] - sample[a]) ** 2 for a in range(3)), axis=1))) * (1 + _SLACK)
+    squared = sum(((queries[:, a, None] - sample[a]) ** 2 for a in range(3)), start=np.zeros((1, 1)))
+    reach = np.sqrt(squared.min(axis=1).max()) * (1 + _SLACK)
     low, high = queries.min(axis=0) - reach, queries.max(axis=0) + reach
     inside = np.ones(columns.shape[1], dtype=bool)
     for x, a, b in zip(columns, low, high, strict=True):

@@ -18,7 +18,7 @@ from .splines import DEGREE, Array, tensor_product
 Index = NDArray[np.intp]
 
 LEAST_NOISE = 0.1
-"""A fit never trusts points more than this (mm): what noise has in common among neighbours does not show in residuals."""
+"""A fit never trusts points more than this (mm): noise that neighbours have in common does not show in residuals."""
 
 _OFFSETS = 2 * DEGREE + 1
 
@@ -61,8 +61,8 @@ class NormalMatrix:
     ----------
     unknown : (nu, nv, components) number of the unknown of each stored control point
     size, band : number of unknowns, and of superdiagonals
-    upper, upper_place : which products of two control points' unknowns, in the order of `grid_products`, lie on or above
-        the diagonal, and where in LAPACK's upper banded storage
+    upper, upper_place : which products of two control points' unknowns, in the order of `grid_products`, lie on or
+        above the diagonal, and where in LAPACK's upper banded storage
     both, both_place, both_scale : all products, the place of the entry or of its mirror image above the diagonal, and 2
         on the diagonal, 1 elsewhere
     """
@@ -87,14 +87,15 @@ class NormalMatrix:
     def right_side(self, values: Array, basis_u: Array, basis_v: Array) -> Array:
         """Bᵀ y for values on the grid, (m, n, components) to (size,)."""
         gathered = tensor_product(basis_u.T, basis_v.T, values)
-        return np.bincount(self.unknown.ravel(), gathered.ravel(), self.size)
+        return np.asarray(np.bincount(self.unknown.ravel(), gathered.ravel(), self.size), dtype=float)
 
     def control_points(self, solution: Array) -> Array:
         """Stored control points of a solution, (size,) to (nu, nv, components)."""
         return solution[self.unknown]
 
     def _scattered(self, place: Index, values: Array) -> Array:
-        return np.bincount(place, values, (self.band + 1) * self.size).reshape(self.band + 1, self.size)
+        flat = np.asarray(np.bincount(place, values, (self.band + 1) * self.size), dtype=float)
+        return flat.reshape(self.band + 1, self.size)
 
 
 def normal_matrix(lattice: ControlLattice, components: int) -> NormalMatrix:
@@ -112,7 +113,8 @@ def normal_matrix(lattice: ControlLattice, components: int) -> NormalMatrix:
     place = (band + low - high) * size + high
     both = np.flatnonzero(low >= 0)
     upper = both[row[both] <= column[both]]
-    return NormalMatrix(unknown, size, band, upper, place[upper], both, place[both], np.where(row == column, 2.0, 1.0)[both])
+    scale = np.where(row == column, 2.0, 1.0)
+    return NormalMatrix(unknown, size, band, upper, place[upper], both, place[both], scale[both])
 
 
 def solve(matrix: Array, right_side: Array) -> Array:
@@ -145,7 +147,8 @@ def _pairs(unknown: Index) -> tuple[Index, Index]:
     nu, nv, c = unknown.shape
     padded = np.full((nu + 2 * DEGREE, nv + 2 * DEGREE, c), -1, dtype=np.intp)
     padded[DEGREE:-DEGREE, DEGREE:-DEGREE] = unknown
-    windows = np.lib.stride_tricks.sliding_window_view(padded, (_OFFSETS, _OFFSETS), axis=(0, 1))  # nu, nv, c, 7, 7
+    along_u = np.lib.stride_tricks.sliding_window_view(padded, _OFFSETS, axis=0)
+    windows = np.lib.stride_tricks.sliding_window_view(along_u, _OFFSETS, axis=1)  # nu, nv, c, 7, 7
     column = np.broadcast_to(windows.transpose(2, 0, 3, 1, 4)[None], (c, c, nu, _OFFSETS, nv, _OFFSETS))
     row = np.broadcast_to(unknown.transpose(2, 0, 1)[:, None, :, None, :, None], column.shape)
     row = np.where(column >= 0, row, -1)

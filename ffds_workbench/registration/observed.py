@@ -43,7 +43,7 @@ class _Candidate:
     cells: NDArray[np.bool_]
 
     def share(self, owned: NDArray[np.bool_]) -> float:
-        """Share of the face's area in blocks with a layer that has most of its points nearer to this face than others."""
+        """Share of the face's area in blocks with a layer that has most of its points nearer to this face."""
         count = np.diff(np.append(self.first, len(owned)))
         own = np.add.reduceat(owned.astype(float), self.first) > 0.5 * count
         if count[own].sum() < _LEAST_POINTS:
@@ -65,10 +65,10 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 
     Notes
     -----
-    Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the nearest
-    face, each layer to the one that owns most of its points. The face with the least of its area under layers of its own
-    is given up and its points go to the next nearest, until all faces left are covered: so the skin of a sheet that moved
-    inwards by more than half the thickness is not taken for the other skin.
+    Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the
+    nearest face, each layer to the one that owns most of its points. The face with the least of its area under layers of
+    its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a sheet
+    that moved inwards by more than half the thickness is not taken for the other skin.
     """
     if len(scan) > _SAMPLE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE, replace=False)]

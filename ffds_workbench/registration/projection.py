@@ -51,8 +51,9 @@ def project(surface: SplineSurface, points: Array, displacement: SplineSurface |
     grid = grid.reshape(-1, 2)
     tree = cKDTree(_sum(fields[0], grid))
     parts = [_project(surface, fields, points[k : k + _CHUNK], grid[tree.query(points[k : k + _CHUNK])[1]])
-             for k in range(0, len(points), _CHUNK)]
-    return Projection(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+             for k in range(0, max(len(points), 1), _CHUNK)]
+    uv, foot, height = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return Projection(uv, foot, height)
 
 
 def _project(surface: SplineSurface, fields: list[list[SplineSurface]], points: Array, uv: Array

@@ -63,8 +63,8 @@ class Raster:
 
     @cached_property
     def table(self) -> Array:
-        """Per cell, one row each: position, principal directions, normal, curvatures, and the steps in cells per mm along
-        the principal directions (x by 1, x by 2, y by 1, y by 2), and the centre's x and y; (20, m·n)."""
+        """What a foot point needs of its cell, one row each, (20, m·n): position, principal directions, normal, curvatures,
+        steps in cells per mm along the principal directions (x by 1, x by 2, y by 1, y by 2), the centre's x and y."""
         gram = np.stack([dot(self.tangent_u, self.tangent_u), dot(self.tangent_u, self.tangent_v),
                          dot(self.tangent_v, self.tangent_v)])
         determinant = gram[0] * gram[2] - gram[1] ** 2
@@ -159,7 +159,8 @@ def make_raster(face: FaceGeometry, cells: int = 4096) -> Raster:
         curvature = np.zeros_like(curvature)
     inside = inside_trims(face, u, v).ravel()
     tangent_u, tangent_v = s_u * step[0], s_v * step[1]
-    trims = boundary_points(face, 0.5 * float(np.sqrt(0.5 * (dot(tangent_u, tangent_u) + dot(tangent_v, tangent_v)).mean())))
+    edge = np.sqrt(0.5 * (dot(tangent_u, tangent_u) + dot(tangent_v, tangent_v)).mean())
+    trims = boundary_points(face, 0.5 * float(edge))
     depth = np.full(len(position), DEEP)
     if len(trims):
         depth = np.minimum(cKDTree(trims).query(position, distance_upper_bound=DEEP)[0], DEEP)
@@ -180,7 +181,8 @@ def _principal(s_u: Array, s_v: Array, normal: Array, second: tuple[Array, Array
     b22 = (en - 2 * p * q * b12 - p * p * b11) / (q * q)
     angle = 0.5 * np.arctan2(2 * b12, b11 - b22)
     c, s = np.cos(angle), np.sin(angle)
-    curvature = np.stack([c * c * b11 + 2 * c * s * b12 + s * s * b22, s * s * b11 - 2 * c * s * b12 + c * c * b22], axis=1)
+    mixed = 2 * c * s * b12
+    curvature = np.stack([c * c * b11 + mixed + s * s * b22, s * s * b11 - mixed + c * c * b22], axis=1)
     return c[:, None] * e1 + s[:, None] * e2, c[:, None] * e2 - s[:, None] * e1, curvature
 
 

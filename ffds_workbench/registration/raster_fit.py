@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One step of a robust fit: residuals of the scan against the current surface, cell by cell, and the lattice they ask for.
+"""One step of a robust fit: residuals of the scan against the current surface, and the lattice they ask for.
 
 The displaced surface S + d is written over the nominal as scan points are: the point of material cell (x, y) has its
 nominal foot point at (x + shift) and the height H there. So the scan is compared with it without projecting it again.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +48,7 @@ class RobustSettings:
     sample : number of scan points that all steps but the last look at
     """
 
-    reach: float = 10.0
+    reach: float = 15.0
     margin: float = 0.7
     curvature: float = 0.002
     length: float = 10.0
@@ -70,7 +71,7 @@ class State:
     Attributes
     ----------
     d, d_x, d_y : (m·n, 3), displacement and its derivatives per cell, in mm
-    control_points : stored control points (nu, nv, components), None for a rigid motion
+    control_points : stored control points (nu, nv, components), empty for a rigid motion
     weights : (m·n,) sum of the Tukey weights of the points of each cell
     points : number of points with weight
     noise : robust standard deviation of the points about the surface that this step started from
@@ -79,8 +80,8 @@ class State:
     d: Array
     d_x: Array
     d_y: Array
-    control_points: Array | None = None
-    weights: Array | None = None
+    control_points: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    weights: Array = field(default_factory=lambda: np.zeros(0))
     points: int = 0
     noise: float = 0.0
 
@@ -129,13 +130,15 @@ class RasterFit:
     def moved(self, motion: SmallMotion) -> State:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""
         raster = self.raster
-        fields = (motion.displacement(raster.position), np.cross(motion.turn, raster.tangent_u),
-                  np.cross(motion.turn, raster.tangent_v))
+        fields = [motion.displacement(raster.position), np.cross(motion.turn, raster.tangent_u),
+                  np.cross(motion.turn, raster.tangent_v)]
         if raster.flat:
-            fields = tuple(dot(f, raster.normal)[:, None] * raster.normal for f in fields)
-        return State(*fields)
+            fields = [dot(f, raster.normal)[:, None] * raster.normal for f in fields]
+        d, d_x, d_y = fields
+        return State(d, d_x, d_y)
 
-    def step(self, state: State, data: SurfaceCoordinates | Layers, noise: float, stiffness: float, gate: float) -> State:
+    def step(self, state: State, data: SurfaceCoordinates | Layers, noise: float, stiffness: float,
+             gate: float) -> State:
         """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
@@ -187,7 +190,8 @@ class RasterFit:
         slope_x, slope_y = (yy * hx - yx * hy) / jacobian, (xx * hy - xy * hx) / jacobian
         tangent_x, tangent_y = raster.tangent_u + state.d_x, raster.tangent_v + state.d_y
         normal = np.cross(tangent_x, tangent_y)
-        normal *= np.sign(dot(normal, raster.normal))[:, None] / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        length = np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)
+        normal *= (np.sign(dot(normal, raster.normal)) / length)[:, None]
         below = raster.cell(x, y)
         cosine = dot(normal, raster.normal[np.where(below >= 0, below, cells)])
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
@@ -196,7 +200,9 @@ class RasterFit:
         """Weigh the data and sum them up cell by cell."""
         cells = len(self.raster.inside)
         sums, spread = np.zeros((3, cells)), []
-        parts = data.chunks() if isinstance(data, SurfaceCoordinates) else (data,)
+        parts: Iterable[SurfaceCoordinates | Layers] = [data]
+        if isinstance(data, SurfaceCoordinates):
+            parts = data.chunks()
         every = max(1, len(data.x) // self.settings.sample)
         for part in parts:
             cell, residual, weight = self._weighed(graph, part, gate)
@@ -205,7 +211,7 @@ class RasterFit:
                 total += np.bincount(cell, values, cells)
             spread.append(np.abs(residual[::every][weight[::every] > 0]))
         sums[:, self.ignored] = 0
-        return _Cells(*sums, np.concatenate(spread) if spread else np.zeros(0))
+        return _Cells(sums[0], sums[1], sums[2], np.concatenate(spread) if spread else np.zeros(0))
 
     def _weighed(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> tuple[Index, Array, Array]:
         """Material cell, residual and weight of scan points or layers."""
@@ -245,7 +251,8 @@ class RasterFit:
         products = grid_products(grids, self.products_u, self.products_v)[block.ravel()]
         matrix = self.layout.symmetric(products)
         matrix += stiffness * settings.stiffness * self.bending + settings.gauge * self.gauge
-        right = self.layout.right_side((row * (data * target)[:, None]).reshape(*shape, k), self.basis_u[0], self.basis_v[0])
+        values = (row * (data * target)[:, None]).reshape(*shape, k)
+        right = self.layout.right_side(values, self.basis_u[0], self.basis_v[0])
         return self.layout.control_points(solve(matrix, right))
 
     def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> State:
@@ -253,4 +260,5 @@ class RasterFit:
         for a, b in ((0, 0), (1, 0), (0, 1)):
             values = tensor_product(self.basis_u[a], self.basis_v[b], control_points)
             fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
-        return State(*fields, control_points, weights, points, noise)
+        d, d_x, d_y = fields
+        return State(d, d_x, d_y, control_points, weights, points, noise)

@@ -29,4 +29,5 @@ class FaceRegistration:
     @property
     def lattice(self) -> tuple[int, int]:
         """(N_i, N_j), the number of control points in u and in v."""
-        return self.displacement.control_points.shape[:2]
+        rows, columns = self.displacement.control_points.shape[:2]
+        return rows, columns

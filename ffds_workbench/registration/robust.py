@@ -26,9 +26,9 @@ from .result import FaceRegistration
 from .splines import Array
 from .start import dense_layers, rigid_start
 
-_FEWEST_POINTS = 30
+_FEWEST_POINTS, _FEWEST_FITTED = 30, 20
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50000
-"""Where more than a tenth of the layers are walls across the face, points are asked which way they face, up to so many."""
+"""Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
@@ -69,10 +69,13 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     for stiffness, gate in settings.soft:
         state = fit.step(state, layers.part(trusted), layers.noise, stiffness, gate)
     residual, weights = fit.look(state, layers, gate)
-    believed = proven(raster, layers, label, trusted, residual, settings.final[-1][1] + layers.noise, settings.curvature)
+    gate = settings.final[-1][1] + layers.noise
+    believed = proven(raster, layers, label, trusted, residual, gate, settings.curvature)
     ignored = layers.part(~believed).cells() & ~layers.part(believed).cells()
+    weights = weights * believed
+    _check_found(face, int(layers.count[weights > 0].sum()))
     if lattice is None:
-        size = automatic_lattice(face.surface, raster, layers, weights * believed, settings.stiffness)
+        size = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
     if size != fit.size:
         fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     fit.ignored = ignored
@@ -81,14 +84,22 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         some = points if k == len(settings.final) - 1 else points.sample(settings.sample)
         state = fit.step(state, some, noise, stiffness, gate)
         noise = state.noise
-    return FaceRegistration(face.name, fit.field(state), state.points, covered_share(raster, state.weights), state.noise)
+    _check_found(face, state.points)
+    coverage = covered_share(raster, state.weights)
+    return FaceRegistration(face.name, fit.field(state), state.points, coverage, state.noise)
 
 
 def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: RobustSettings) -> None:
     if len(points.x) < _FEWEST_POINTS:
         raise RefusedError(
-            f"The scan does not lie on {face.name}: {len(points.x)} of its points are within {settings.reach:g} mm of the "
-            f"face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
+            f"The scan does not lie on {face.name}: {len(points.x)} of its points are within {settings.reach:g} mm of "
+            f"the face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
+
+
+def _check_found(face: FaceGeometry, points: int) -> None:
+    if points < _FEWEST_FITTED:
+        raise RefusedError(f"The scan points near {face.name} do not form its surface: only {points} of them agree on "
+                           f"one; leave the face out, or check the alignment of the scan.")
 
 
 def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates, automatic: bool) -> None:
@@ -96,8 +107,9 @@ def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinate
     if fit.lattice.free <= occupied:
         return
     if automatic:
-        raise RefusedError(f"The scan shows too little of {face.name}: its {len(points.x)} points lie in {occupied} places, "
-                           f"and at least {fit.lattice.free} are needed; leave the face out or scan it from another side.")
+        raise RefusedError(
+            f"The scan shows too little of {face.name}: its {len(points.x)} points lie in {occupied} places, and at "
+            f"least {fit.lattice.free} are needed; leave the face out or scan it from another side.")
     rows, columns = fit.lattice.unknown.shape
     raise RefusedError(
         f"The lattice {rows}x{columns} is too fine for {face.name}: its {fit.lattice.free} control points are not "

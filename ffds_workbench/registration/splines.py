@@ -56,7 +56,7 @@ def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np
 
 
 def tensor_product(basis_u: Array, basis_v: Array, control_points: Array) -> Array:
-    """Σ_ij N_i(u) N_j(v) P_ij on a grid, from the basis functions' values: (m, nu), (n, nv), (nu, nv, dim) to (m, n, dim)."""
+    """Σ_ij N_i(u) N_j(v) P_ij on a grid, from basis matrices: (m, nu), (n, nv), (nu, nv, dim) to (m, n, dim)."""
     nu, nv, dim = control_points.shape
     along_u = (basis_u @ control_points.reshape(nu, nv * dim)).reshape(len(basis_u), nv, dim)
     return np.asarray(basis_v @ along_u)

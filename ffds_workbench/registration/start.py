@@ -130,7 +130,8 @@ def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     median = height[(begin + end) // 2]
     first = np.flatnonzero(np.diff(owner[dense], prepend=-1))
     density = float(np.median(count)) / (edge**2 * float(raster.area.mean()))
-    return Layers(order, begin, end, first, x, y, median, (end - begin).astype(float), thin, noise, density, edge, raster.shape)
+    count = (end - begin).astype(float)
+    return Layers(order, begin, end, first, x, y, median, count, thin, noise, density, edge, raster.shape)
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
 
     Notes
     -----
-    A scan line per v: a node is inside if an odd number of trim crossings lies at smaller u. Trims on a closed direction
-    may leave the range, so they are also taken one period to either side.
+    A scan line per v: a node is inside if an odd number of trim crossings lies at smaller u. Trims on a closed
+    direction may leave the range, so they are also taken one period to either side.
     """
     u0, u1, v0, v1 = face.surface.range
     u, v = _inwards(u, u0, u1), _inwards(v, v0, v1)
