@@ -19,8 +19,8 @@ _SIMULATED = ("All clouds here are simulated. The paper states neither the size 
               "deformation: the stand-in is a plane of 75 × 70 mm with a dent, a bend and a twist of about 5 mm.")
 _METRIC = ("The paper's accuracy is the mean distance from random points M on the result to their nearest neighbours "
            "in T. For two independent clouds of a spacing of 0.2 mm that number cannot fall below 0.5/√density ≈ 0.1 "
-           "mm, even for a perfect result: the published 0.03 mm needs a closer spacing, or M drawn at T's own (u, v), or "
-           "distances to the surface. So each figure is given in the paper's metric beside its floor, with M at T's "
+           "mm, even for a perfect result: the published 0.03 mm needs a closer spacing, or M drawn at T's own (u, v), "
+           "or distances to the surface. So each figure is given in the paper's metric beside its floor, with M at T's "
            "(u, v), and as the true distance to the deformed surface and to its boundary.")
 _TWO_AXES = ("The paper's axis is the total of control points. At the same N a lattice in space has N³ where the "
              "surface has N²; on a plane face in the middle of the lattice both are the same deformation, to rounding.")
@@ -136,7 +136,7 @@ def _real_section(real: dict[str, Any] | None) -> Section:
                      f"{figures['held_out']['rms']:.3f}"])
     text = (f"The outer face of a pipe ({real['face']}) of a weld part, {real['points']} points near it from a "
             "robot-mounted laser. Its noise is about 1.6 mm and the pipe measures 2.5 mm too small in radius. FFDS and "
-            "FFD-HSU with N = 6 and 400 source points, robust FFDS with a lattice of its own choice. No true surface is known: the "
-            "figures are distances of scan points from the result, every fifth point held out.")
+            "FFD-HSU with N = 6 and 400 source points, robust FFDS with a lattice of its own choice. No true surface is "
+            "known: the figures are distances of scan points from the result, every fifth point held out.")
     head = ("", "fitted points, mean", "held out, mean", "held out, rms")
     return Section(title, (text,), tables=(Table("Distance of scan points from the face in mm", head, rows),))
