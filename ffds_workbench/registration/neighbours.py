@@ -19,6 +19,7 @@ _CELLS_PER_ROOT = 4.0
 _MOST_CELLS = 65535
 _MOST_PAIRS = 130_000
 _SAMPLE = 128
+_CHUNK = 32768
 _SLACK = 1e-9
 """Relative slack of distance bounds, far above rounding: a cell kept in vain costs time, one dropped costs truth."""
 
@@ -108,10 +109,10 @@ def _bin(columns: Array) -> _Cells:
     while np.prod(np.floor(extent / edge) + 1) > _MOST_CELLS:
         edge *= 1.1
     size = np.floor(extent / edge).astype(np.intp) + 1
-    key = np.zeros(n, dtype=np.uint16)
-    for x, a, steps in zip(columns, low, size, strict=True):
-        step = ((x - a) * (1 / edge)).astype(np.uint16)
-        key = key * np.uint16(steps) + np.minimum(step, np.uint16(steps - 1))
+    key = np.empty(n, dtype=np.uint16)
+    for first in range(0, n, _CHUNK):
+        part = slice(first, first + _CHUNK)
+        key[part] = _keys(columns[:, part], low, edge, size)
     order = np.argsort(key, kind="stable")  # 16-bit keys: a radix sort, linear in n
     count = np.bincount(key)
     count = count[count > 0]
@@ -119,6 +120,16 @@ def _bin(columns: Array) -> _Cells:
     ordered = columns.take(order, axis=1)
     lowest, highest = np.minimum.reduceat(ordered, start, axis=1), np.maximum.reduceat(ordered, start, axis=1)
     return _Cells(0.5 * (lowest + highest).T, 0.5 * (highest - lowest).T, start, count, order, ordered)
+
+
+def _keys(columns: Array, low: Array, edge: float, size: Index) -> NDArray[np.uint16]:
+    """Number of the cubic cell of each point; (3, n) to (n,)."""
+    key = np.zeros(columns.shape[1], dtype=np.uint16)
+    for x, a, steps in zip(columns, low, size, strict=True):
+        step = ((x - a) * (1 / edge)).astype(np.uint16)
+        key *= np.uint16(steps)
+        key += np.minimum(step, np.uint16(steps - 1))
+    return key
 
 
 def _nearest(cells: _Cells, queries: Array, query: Index, cell: Index) -> tuple[Array, Index]:
