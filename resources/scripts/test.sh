@@ -44,7 +44,7 @@ fi
 step "types (mypy)" mypy --no-error-summary --cache-dir "$home/mypy"
 step "tests in plain Python" "$python" -m pytest -q --ignore tests/gui "$@"
 step "tests in freecadcmd" freecadcmd -c \
-    "import sys, pytest; sys.exit(pytest.main(['-q', 'tests/api', 'tests/brep', 'tests/report', 'tests/scan']))"
+    "import sys, pytest; sys.exit(pytest.main(['-q', 'tests/api', 'tests/brep', 'tests/objects', 'tests/report', 'tests/scan']))"
 step "tests in FreeCAD's GUI" timeout 600 xvfb-run -a -s "-screen 0 1600x1000x24" freecad tests/gui/run_in_freecad.py
 
 echo

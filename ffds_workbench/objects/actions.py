@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the commands do to a document, one function each: macros record these calls and replay them headless.
+
+Errors are `InputError` and `RefusedError`; a function that raises has left the document as it was.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+import numpy as np
+import Part
+
+from .. import RESOURCES, api
+from ..brep import files
+from ..errors import InputError
+from ..output import check_writable, replacing
+from ..report.stopwatch import Progress
+from . import alignment, scans, views
+from .as_built import AsBuilt, apply_settings, is_as_built, settings_of
+from .job import Job, Settings, make_job
+from .sources import read_source, standing_for
+
+Lattice = tuple[int, int] | str
+
+
+def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
+    """A Points object of one scan file, or of several of one part; ``unit`` is that of the files."""
+    names = [paths] if isinstance(paths, str) else list(paths)
+    return scans.add_scan(document, api.read_scan(names, unit).points, Path(names[0]).stem)
+
+
+def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
+    """Move a scan onto a part: ``mode`` "fine" from where it lies, "global" from anywhere. Returns the scan."""
+    source = standing_for(source)
+    scans.scan_points(scan)
+    if scan.getParentGeoFeatureGroup() is not None:
+        raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
+    aligned = alignment.find(source, scan, mode)
+    scans.set_points(scan, aligned.scan.points)
+    return scan
+
+
+def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (),
+                  method: str = "robust", lattice: Lattice = "auto", source_points: int = 400,
+                  isometry: str = "auto") -> Any:
+    """An as-built part beside its nominal one, which is hidden; it follows both and its settings.
+
+    Parameters
+    ----------
+    source : the nominal part, any object with a shape
+    scan : a Points object
+    faces, freeze, method, lattice, source_points, isometry : as in `api.register`
+
+    Raises
+    ------
+    InputError, RefusedError : as `api.register` does
+    """
+    settings = _settings(faces, freeze, method, lattice, source_points, isometry)
+    job = make_job(source, scan, settings)
+    job.run()
+    source = job.source.item
+    item = source.Document.addObject("Part::FeaturePython", "AsBuilt")
+    AsBuilt(item)
+    item.Label = f"{source.Label} as built"
+    item.Source, item.Scan = source, scan
+    apply_settings(item, settings)
+    holder = source.getParentGroup() or source.getParentGeoFeatureGroup()
+    if holder is not None:
+        holder.addObject(item)
+    item.recompute()
+    views.dress(item, source)
+    source.Visibility = False
+    return item
+
+
+def change_as_built(item: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (), method: str = "robust",
+                    lattice: Lattice = "auto", source_points: int = 400, isometry: str = "auto",
+                    scan: Any = None) -> Any:
+    """Give an as-built part other settings, and another scan if one is named; unnamed settings take their defaults."""
+    if not is_as_built(item):
+        raise InputError(f"{item.Label} is no as-built part of this workbench.")
+    settings = _settings(faces, freeze, method, lattice, source_points, isometry)
+    make_job(item.Source, scan or item.Scan, settings).run()
+    item.Scan = scan or item.Scan
+    apply_settings(item, settings)
+    item.recompute()
+    return item
+
+
+def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (),
+                     method: str = "robust", lattice: Lattice = "auto", source_points: int = 400,
+                     isometry: str = "auto") -> Any:
+    """Write the as-built shape into the part itself, which must be a plain shape without a history of its own."""
+    if source.TypeId != "Part::Feature":
+        raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple copy "
+                         f"of it, or an as-built part beside it.")
+    job = make_job(source, scan, _settings(faces, freeze, method, lattice, source_points, isometry))
+    shape = job.run().shape.copy()
+    shape.Placement = job.source.placement
+    source.Shape = shape
+    return source
+
+
+def simulate_scan(source: Any, spacing: float = 0.5, noise: float = 0.05,
+                  views: Sequence[tuple[float, float, float]] = (), outliers: float = 0.0, seed: int = 0) -> Any:
+    """Scan a part with the virtual sensor: a Points object. ``views`` are directions from the part to the camera; none:
+    the whole surface is seen. Lengths in mm."""
+    settings = api.SensorSettings(spacing=spacing, noise=noise, outliers=outliers, seed=seed,
+                                  views=tuple(api.View(tuple(view)) for view in views))
+    found = read_source(source)
+    points = api.simulate(found.model, settings).scan.points
+    matrix = found.T_document_part
+    label = f"{found.item.Label} scanned"
+    return scans.add_scan(source.Document, points @ matrix[:3, :3].T + matrix[:3, 3], label)
+
+
+def load_example(document: Any) -> tuple[Any, Any]:
+    """The bracket of the README and its scan: (part, scan)."""
+    model = api.read_model(RESOURCES / "examples" / "bracket.step")
+    part = document.addObject("Part::Feature", "Bracket")
+    part.Shape = model.shape
+    if getattr(part, "ViewObject", None) is not None:
+        part.ViewObject.DiffuseColor = list(model.decoration.colours)
+    return part, import_scan(document, str(RESOURCES / "examples" / "bracket_scan.ply"))
+
+
+def export_as_built(item: Any, path: str) -> None:
+    """Write a part with its name and colours as .step, .brep or .FCStd: whole or not at all."""
+    model = files.from_object(item)
+    api.check_model_output(path)
+    check_writable(Path(path))
+    with replacing(Path(path)) as temporary:
+        files.write(model, temporary[0])
+
+
+def job_of(item: Any) -> Job:
+    """The registration that an as-built part stands for."""
+    return make_job(item.Source, item.Scan, settings_of(item))
+
+
+def _settings(faces: Sequence[str] | None, freeze: Sequence[str], method: str, lattice: Lattice, source_points: int,
+              isometry: str) -> Settings:
+    size = lattice if isinstance(lattice, str) else (int(lattice[0]), int(lattice[1]))
+    return Settings(None if faces is None else tuple(faces), tuple(freeze), method, size, source_points, isometry)

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The as-built part: a document object that follows its nominal part, its scan and its settings."""
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import FreeCAD
+import numpy as np
+
+from ..api.registering import ISOMETRY, METHODS
+from ..errors import InputError
+from .feature import HIDDEN, READ_ONLY, Feature, Property
+from .job import Settings, make_job
+from .lattices import Lattice, draw_lattices
+
+_FIGURES = (("MeanBefore", "deviation_before", "mean"), ("P95Before", "deviation_before", "p95"),
+            ("MeanAfter", "deviation_after", "mean"), ("P95After", "deviation_after", "p95"))
+
+
+def _figure(name: str, text: str) -> Property:
+    return Property(name, "App::PropertyDistance", "Deviation", text, None, READ_ONLY)
+
+
+class AsBuilt(Feature):
+    """Deforms ``Source`` to ``Scan``. The shape is saved with the document and needs no workbench to be seen."""
+
+    PROPERTIES = (
+        Property("Source", "App::PropertyLinkGlobal", "As built", "The nominal part"),
+        Property("Faces", "App::PropertyLinkSubListGlobal", "As built",
+                 "The faces to deform, each by itself; none: the whole part"),
+        Property("Scan", "App::PropertyLinkGlobal", "As built", "The point cloud that the part is deformed to"),
+        Property("Freeze", "App::PropertyLinkSubListGlobal", "As built", "Faces that must not move"),
+        Property("Method", "App::PropertyEnumeration", "As built",
+                 "robust copes with noise, gaps and clutter; ffds is the published algorithm", list(METHODS)),
+        Property("ControlPointsU", "App::PropertyIntegerConstraint", "As built",
+                 "Control points of each face in u; 0: chosen from the data", (0, 0, 400, 1)),
+        Property("ControlPointsV", "App::PropertyIntegerConstraint", "As built",
+                 "Control points of each face in v; 0: chosen from the data", (0, 0, 400, 1)),
+        Property("SourcePoints", "App::PropertyIntegerConstraint", "As built",
+                 "Source points on each face, for the methods ffds and ffd-hsu", (400, 16, 1000000, 100)),
+        Property("Isometry", "App::PropertyEnumeration", "As built",
+                 "Whether a whole sheet part is held inextensible", list(ISOMETRY)),
+        _figure("MeanBefore", "Mean distance of the scan from the nominal part"),
+        _figure("P95Before", "95 % of the scan are nearer than this to the nominal part"),
+        _figure("MeanAfter", "Mean distance of the scan from the as-built part"),
+        _figure("P95After", "95 % of the scan are nearer than this to the as-built part"),
+        Property("Report", "App::PropertyString", "Deviation", "The report as JSON", None, READ_ONLY | HIDDEN),
+        Property("LatticeSizes", "App::PropertyIntegerList", "Lattice", "Control points in u and v, face by face", None,
+                 READ_ONLY | HIDDEN),
+        Property("LatticeNominal", "App::PropertyVectorList", "Lattice", "Control points before", None,
+                 READ_ONLY | HIDDEN),
+        Property("LatticeAsBuilt", "App::PropertyVectorList", "Lattice", "Control points after", None,
+                 READ_ONLY | HIDDEN),
+    )
+
+    def execute(self, obj: Any) -> None:
+        """Recompute. What goes wrong makes the object invalid, with the sentence; its last shape stays."""
+        if obj.Source is None or obj.Scan is None:
+            missing = "nominal part" if obj.Source is None else "scan"
+            raise InputError(f"{obj.Label} has lost its {missing}: choose one in its properties.")
+        job = make_job(obj.Source, obj.Scan, settings_of(obj))
+        result = job.run()
+        obj.Shape = result.shape
+        obj.Placement = job.source.placement
+        for name, block, figure in _FIGURES:
+            setattr(obj, name, result.report[block][figure])
+        obj.Report = json.dumps(result.report)
+        lattices = draw_lattices(job.source.model.shape, result.registrations)
+        obj.LatticeSizes = [count for item in lattices for count in item.nominal.shape[:2]]
+        obj.LatticeNominal = _vectors([item.nominal for item in lattices])
+        obj.LatticeAsBuilt = _vectors([item.deformed for item in lattices])
+
+
+def is_as_built(item: Any) -> bool:
+    """Whether a document object is an as-built part of this workbench."""
+    return isinstance(getattr(item, "Proxy", None), AsBuilt)
+
+
+def settings_of(obj: Any) -> Settings:
+    """The settings that an as-built object holds.
+
+    Raises
+    ------
+    InputError : a face belongs to another part than the source, or the lattice is given in one direction alone
+    """
+    sizes = (obj.ControlPointsU, obj.ControlPointsV)
+    if (sizes[0] == 0) != (sizes[1] == 0):
+        raise InputError(f"{obj.Label} has a lattice of {sizes[0]} × {sizes[1]} control points: give both numbers, or 0 for "
+                         f"both to choose them from the data.")
+    faces = _names(obj, obj.Faces)
+    return Settings(faces or None, _names(obj, obj.Freeze), obj.Method, sizes if sizes[0] else "auto", obj.SourcePoints,
+                    obj.Isometry)
+
+
+def apply_settings(obj: Any, settings: Settings) -> None:
+    """Write settings into an as-built object."""
+    obj.Faces = [(obj.Source, settings.faces)] if settings.faces else []
+    obj.Freeze = [(obj.Source, settings.freeze)] if settings.freeze else []
+    obj.Method, obj.Isometry, obj.SourcePoints = settings.method, settings.isometry, settings.source_points
+    obj.ControlPointsU, obj.ControlPointsV = (0, 0) if settings.lattice == "auto" else settings.lattice
+
+
+def lattices_of(obj: Any) -> list[Lattice]:
+    """The control lattices of the last recompute, in the part's own frame."""
+    sizes = np.reshape(obj.LatticeSizes, (-1, 2)).astype(int).tolist()
+    ends = np.cumsum([rows * columns for rows, columns in sizes])[:-1]
+    before, after = (np.split(np.array([tuple(point) for point in points]).reshape(-1, 3), ends)
+                     for points in (obj.LatticeNominal, obj.LatticeAsBuilt))
+    return [Lattice(a.reshape(*size, 3), b.reshape(*size, 3)) for size, a, b in zip(sizes, before, after, strict=False)]
+
+
+def report_of(obj: Any) -> dict[str, Any]:
+    """The report of the last recompute, empty before it."""
+    return json.loads(obj.Report) if obj.Report else {}
+
+
+def _names(obj: Any, links: list) -> tuple[str, ...]:
+    for item, _ in links:
+        if item is not obj.Source:
+            raise InputError(f"A face of {item.Label} is named, but {obj.Label} is made from {obj.Source.Label}: choose faces "
+                             f"of one part.")
+    return tuple(name for _, names in links for name in names if name)
+
+
+def _vectors(grids: list[np.ndarray]) -> list[FreeCAD.Vector]:
+    return [FreeCAD.Vector(*point) for grid in grids for point in grid.reshape(-1, 3).tolist()]
+
+

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One registration of a part of the document: its inputs, and its result while the inputs stay the same.
+
+A panel computes in the background what the document object then asks for: the last results are remembered by a digest
+of everything that goes into them.
+"""
+from __future__ import annotations
+
+import hashlib
+from collections import OrderedDict
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import api
+from ..report.stopwatch import Progress
+from .scans import scan_points
+from .sources import Source, read_source
+
+_KEPT = 3
+_results: OrderedDict[str, api.Result] = OrderedDict()
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What `api.register` is asked for beside model and scan; see there."""
+
+    faces: tuple[str, ...] | None = None
+    freeze: tuple[str, ...] = ()
+    method: str = "robust"
+    lattice: tuple[int, int] | str = "auto"
+    source_points: int = 400
+    isometry: str = "auto"
+
+
+@dataclass(frozen=True)
+class Job:
+    """A registration in the part's own frame, so that it does not depend on where the part stands."""
+
+    source: Source
+    points: NDArray[np.float64]
+    settings: Settings
+
+    @cached_property
+    def digest(self) -> str:
+        """Differs where any input differs."""
+        found = hashlib.blake2b(self.source.model.shape.exportBrepToString().encode())
+        found.update(np.ascontiguousarray(self.points).tobytes())
+        found.update(repr(self.settings).encode())
+        return found.hexdigest()
+
+    def run(self, progress: Progress | None = None) -> api.Result:
+        """Register, or recall what the same inputs gave. Touches no document: any thread may run it.
+
+        Raises
+        ------
+        InputError, RefusedError : as `api.register` does
+        """
+        if self.digest not in _results:
+            wanted = self.settings
+            _results[self.digest] = api.register(
+                self.source.model, self.points, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
+                wanted.source_points, wanted.isometry, progress)
+            while len(_results) > _KEPT:
+                _results.popitem(last=False)
+        return _results[self.digest]
+
+
+def make_job(item: Any, scan: Any, settings: Settings) -> Job:
+    """The registration of a document object to a Points object (main thread only).
+
+    Raises
+    ------
+    InputError : the part or the scan cannot be used
+    """
+    source = read_source(item)
+    return Job(source, source.to_part(scan_points(scan)), settings)
