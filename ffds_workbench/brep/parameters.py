@@ -10,6 +10,8 @@ from .lattice import ParameterBox
 
 _CURVE_SAMPLES = 65
 _WIDENING = 0.002
+_COINCIDENT = 1e-7
+"""Points of a surface this close (mm) are one: OCCT's own precision."""
 _SEAM_SLOPE = 1e-5
 """Largest relative change of slope across a seam that still counts as smooth."""
 
@@ -55,7 +57,7 @@ def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -
                                                   (surface.isVPeriodic(), surface.isVClosed()))):
         start, end = natural[2 * k], natural[2 * k + 1]
         a, b = low[k], high[k]
-        full = is_closed and b - a >= (end - start) * (1 - 1e-6)
+        full = b - a >= (end - start) * (1 - 1e-6) and (is_closed or _meets_itself(surface, natural, k))
         if full:
             a, b = (a, a + (end - start)) if is_periodic else (start, end)
         else:
@@ -78,6 +80,18 @@ def _natural_bounds(surface: Part.GeometrySurface, v_inside: float) -> Array:
         apex = -surface.Radius / np.sin(surface.SemiAngle)
         natural[2 if v_inside > apex else 3] = apex
     return natural
+
+
+def _meets_itself(surface: Part.GeometrySurface, natural: Array, direction: int) -> bool:
+    """Whether opposite sides coincide: OCCT calls a B-spline closed only where that holds to the last digit."""
+    u0, u1, v0, v1 = natural
+    for f in (0.0, 0.13, 0.5, 0.84, 1.0):
+        u, v = u0 + f * (u1 - u0), v0 + f * (v1 - v0)
+        ends = ((u0, v), (u1, v)) if direction == 0 else ((u, v0), (u, v1))
+        first, last = (surface.value(*end) for end in ends)
+        if first.distanceToPoint(last) > _COINCIDENT:
+            return False
+    return True
 
 
 def _smooth_seam(surface: Part.GeometrySurface, box: ParameterBox, direction: int) -> bool:
