@@ -136,7 +136,7 @@ def _real_section(real: dict[str, Any] | None) -> Section:
                      f"{figures['held_out']['rms']:.3f}"])
     text = (f"The outer face of a pipe ({real['face']}) of a weld part, {real['points']} points near it from a "
             "robot-mounted laser. Its noise is about 1.6 mm and the pipe measures 2.5 mm too small in radius. FFDS and "
-            "FFD-HSU with N = 6 and 400 source points, robust FFDS with a lattice of its own choice. No true surface is "
-            "known: the figures are distances of scan points from the result, every fifth point held out.")
+            "FFD-HSU with N = 6 and 400 source points, robust FFDS with a lattice of its own choice. No true surface "
+            "is known: the figures are distances of scan points from the result, every fifth point held out.")
     head = ("", "fitted points, mean", "held out, mean", "held out, rms")
     return Section(title, (text,), tables=(Table("Distance of scan points from the face in mm", head, rows),))
