@@ -33,6 +33,7 @@ LIMIT_SECONDS = 60.0
 SIZES = (1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000)
 _SLOW = 8.0
 _START_UP = 30.0
+_LABEL_BELOW = ("ffd_hsu", "pycpd_stiff", "probreg")
 _WORKER = Path(__file__).with_name("peer_worker.py")
 
 
@@ -209,7 +210,7 @@ def _plot(folder: Path, rows: Sequence[Row]) -> str:
             colour = style.COLOURS.get(row["name"].removesuffix("_small"), style.SOFT)
             axes.loglog(figures["seconds"], figures["true_mean"], "o", color=colour)
             axes.annotate(row["name"], (figures["seconds"], figures["true_mean"]), textcoords="offset points",
-                          xytext=(5, 4), fontsize=8)
+                          xytext=(5, -11 if row["name"] in _LABEL_BELOW else 5), fontsize=8)
         axes.set(xlabel="seconds", title=f"sheet {case}")
         axes.margins(x=0.2)
     drawing.axes[0].set_ylabel("true mean distance in mm")
