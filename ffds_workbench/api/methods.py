@@ -22,7 +22,7 @@ from ..scan.cloud import PointCloud
 
 Lattice = tuple[int, int] | str
 
-_PAPER_LATTICE = (10, 10)
+_HSU_LATTICE = (10, 10)
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,9 @@ def _register_faces(part: Workpiece, cloud: PointCloud, wanted: Sequence[int] | 
 def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, lattice: Lattice,
                    source_points: int) -> FaceRegistration:
     face = part.geometry(index)
-    if method in ("ffds", "ffd-hsu"):
-        published = register_ffds if method == "ffds" else register_ffd
-        return published(face, cloud.points, _PAPER_LATTICE if lattice == "auto" else lattice, source_points)
-    return register_robust(face, cloud.points, None if lattice == "auto" else lattice)
+    size = None if lattice == "auto" else lattice
+    if method == "ffds":
+        return register_ffds(face, cloud.points, size, source_points)
+    if method == "ffd-hsu":
+        return register_ffd(face, cloud.points, size or _HSU_LATTICE, source_points)
+    return register_robust(face, cloud.points, size)

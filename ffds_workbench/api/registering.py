@@ -85,7 +85,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
     faces : names like "Face6", numbered as FreeCAD numbers the shape, each registered by itself; None for the whole
         part: all faces together with "robust", every face that the scan observes by itself with the other methods
     method : "robust", "ffds" for the published algorithm, or "ffd-hsu" for a lattice in space around each face
-    lattice : (N_i, N_j) control points per face, or "auto"; "ffds" and "ffd-hsu" then take 10 × 10
+    lattice : (N_i, N_j) control points per face, or "auto"; "ffd-hsu" then takes 10 × 10
     freeze : names of faces that must not move
     source_points : of methods "ffds" and "ffd-hsu", on each face
     isometry : of a whole sheet part: "on" holds it inextensible, "off" does not, "auto" decides from the strain found

@@ -14,7 +14,7 @@ from .control_lattice import ControlLattice, displacement_lattice
 from .face import FaceGeometry
 from .neighbours import nearest_neighbours
 from .result import FaceRegistration
-from .splines import Array
+from .splines import DEGREE, Array
 from .trims import inside_trims
 
 REACH = 10.0
@@ -22,25 +22,36 @@ REACH = 10.0
 
 SMALLEST_SINGULAR_VALUE = 1e-6
 _LEAST_COVERAGE = 0.1
+_FINEST = 10
+_OVERSHOOT = 4.0
+"""Ratio of control point to source point displacement above which a lattice counts as undetermined; a cubic through a
+full grid stays below 2."""
 
 
-def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (10, 10), source_points: int = 400,
-                  reach: float = REACH) -> FaceRegistration:
+class UndeterminedError(RefusedError):
+    """The source points do not determine the control points."""
+
+
+def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = (10, 10),
+                  source_points: int = 400, reach: float = REACH) -> FaceRegistration:
     """Deform a face to a scan: the paper's steps 1 to 5.
 
     Parameters
     ----------
     face : the nominal face
     scan : T, (n, 3) in mm, finite, in the frame of the model
-    lattice : (N_i, N_j), control points in u and v
+    lattice : (N_i, N_j), control points in u and v; None for the finest of 10 × 10 … 4 × 4 that the source points
+        determine
     source_points : number of points of the equidistant grid on the face, rounded to a square; those in holes drop out
     reach : mm; the share of source points with a neighbour nearer than this is the coverage
 
     Raises
     ------
     RefusedError
-        The lattice has more control points than there are source points, or the scan does not lie on the face.
+        The source points do not determine the control points of the lattice, or the scan does not lie on the face.
     """
+    if lattice is None:
+        return _finest(face, scan, source_points, reach)
     control = displacement_lattice(face.surface, lattice)                     # steps 1 and 2: N_i, N_j, the lattice
     u, v, on_face = equidistant_grid(face, source_points)
     source = face.surface.on_grid(u, v)[on_face]
@@ -49,10 +60,21 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (1
     coverage = check_coverage(face, distance, reach)
     displacement_points = scan[nearest] - source                              # Δp
     control_points = solve(control, u, v, on_face, displacement_points)       # step 4: ΔP̃ = B⁺ Δp (Eq. 4)
+    _check_determined(face, control, control_points, displacement_points)
     displacement = control.field(control_points)                              # step 5: L̃(p) = Σ N N (P̃ + ΔP̃) (Eq. 2)
     residual = scan[nearest] - source - displacement.on_grid(u, v)[on_face]
     noise = 1.4826 * float(np.median(np.abs(along_normal(face, u, v, on_face, residual))))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
+
+
+def _finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
+    """The registration with the finest lattice that the source points determine."""
+    for count in range(_FINEST, DEGREE + 1, -1):
+        try:
+            return register_ffds(face, scan, (count, count), source_points, reach)
+        except UndeterminedError:
+            continue
+    return register_ffds(face, scan, (DEGREE + 1, DEGREE + 1), source_points, reach)
 
 
 def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_], values: Array) -> Array:
@@ -128,10 +150,20 @@ def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: NDArray[np.boo
     return np.divide((normal * vectors).sum(axis=1), length, out=np.zeros(len(vectors)), where=length > 0)
 
 
+def _check_determined(face: FaceGeometry, control: ControlLattice, control_points: Array, moves: Array) -> None:
+    """Control points that go much farther than any source point hang over holes, held by hardly anything."""
+    farthest, asked = (float(np.linalg.norm(points, axis=1).max()) for points in (control_points, moves))
+    if farthest > _OVERSHOOT * asked:
+        rows, columns = control.unknown.shape
+        raise UndeterminedError(
+            f"The lattice {rows}x{columns} is too fine for {face.name}: around holes its control points would move "
+            f"{farthest:.3g} mm where the scan asks for {asked:.3g} mm; choose a smaller lattice or method robust.")
+
+
 def _check_source(face: FaceGeometry, control: ControlLattice, source_points: int) -> None:
     if source_points < control.free:
         rows, columns = control.unknown.shape
-        raise RefusedError(
+        raise UndeterminedError(
             f"The lattice {rows}x{columns} is too fine for {face.name}: its {control.free} control points are not "
             f"determined by {source_points} source points; choose a smaller lattice or more source points.")
 

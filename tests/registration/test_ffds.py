@@ -87,3 +87,16 @@ def test_a_closed_face_stays_closed():
 def test_refusals_say_what_to_do(lattice, source, moved, text):
     with pytest.raises(RefusedError, match=text):
         register_ffds(sheet.nominal(), sheet.scan("A", 0, 3000) + moved, lattice, source)
+
+
+def test_a_lattice_that_hangs_over_a_hole_is_refused_and_auto_takes_a_coarser_one():
+    """Control points over a hole of a third of the face are held by hardly any source point."""
+    plain = sheet.nominal()
+    hole = np.array([[15.0, 15.0], [60.0, 15.0], [60.0, 50.0], [15.0, 50.0], [15.0, 15.0]])
+    face = FaceGeometry("Face1", "Plane", plain.surface, (*plain.trims, hole), 1)
+    scan = sheet.scan("A", 0)
+    with pytest.raises(RefusedError, match="too fine for Face1: around holes"):
+        register_ffds(face, scan, (12, 12), 400)
+    chosen = register_ffds(face, scan, None, 400)
+    assert max(chosen.lattice) < 10
+    assert np.abs(chosen.displacement.control_points).max() < 4 * 8.0  # the sheet rises less than 8 mm
