@@ -2,6 +2,10 @@
 """FreeCAD's GUI runs this at every start: it makes the workbench known and loads nothing else."""
 import FreeCADGui as Gui
 
+from ffds_workbench.objects import views
+
+views.dress_with("ffds_workbench.gui.view_providers")
+
 
 class FFDSWorkbench(Gui.Workbench):
     """The workbench. Names of this file cannot be seen from the methods, hence the imports inside them."""
@@ -15,11 +19,17 @@ class FFDSWorkbench(Gui.Workbench):
 
     def Initialize(self):  # noqa: N802
         """Called once, when the workbench is first opened."""
-        import FreeCAD
+        from ffds_workbench.gui import commands
 
-        from ffds_workbench import __version__
+        commands.register()
+        self.appendToolbar("FFDS", commands.TOOLBAR)
+        self.appendMenu("FFDS", commands.TOOLBAR)
 
-        FreeCAD.Console.PrintLog(f"FFDS {__version__}: use 'from ffds_workbench import api' in the Python console\n")
+    def ContextMenu(self, recipient):  # noqa: N802
+        """Called when the context menu of the 3D view or the tree opens."""
+        from ffds_workbench.gui import commands
+
+        self.appendContextMenu("FFDS", commands.CONTEXT)
 
     def GetClassName(self):  # noqa: N802
         """The kind of workbench FreeCAD makes of this class."""

@@ -9,15 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import FreeCAD
-import numpy as np
-import Part
 
 from .. import RESOURCES, api
 from ..brep import files
 from ..errors import InputError
 from ..output import check_writable, replacing
-from ..report.stopwatch import Progress
 from . import alignment, scans, views
 from .as_built import AsBuilt, apply_settings, is_as_built, settings_of
 from .job import Job, Settings, make_job
@@ -95,8 +91,8 @@ def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None,
                      isometry: str = "auto") -> Any:
     """Write the as-built shape into the part itself, which must be a plain shape without a history of its own."""
     if source.TypeId != "Part::Feature":
-        raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple copy "
-                         f"of it, or an as-built part beside it.")
+        raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple "
+                         f"copy of it, or an as-built part beside it.")
     job = make_job(source, scan, _settings(faces, freeze, method, lattice, source_points, isometry))
     shape = job.run().shape.copy()
     shape.Placement = job.source.placement

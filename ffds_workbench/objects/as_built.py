@@ -86,8 +86,8 @@ def settings_of(obj: Any) -> Settings:
     """
     sizes = (obj.ControlPointsU, obj.ControlPointsV)
     if (sizes[0] == 0) != (sizes[1] == 0):
-        raise InputError(f"{obj.Label} has a lattice of {sizes[0]} × {sizes[1]} control points: give both numbers, or 0 for "
-                         f"both to choose them from the data.")
+        raise InputError(f"{obj.Label} has a lattice of {sizes[0]} × {sizes[1]} control points: give both numbers, or "
+                         f"0 for both to choose them from the data.")
     faces = _names(obj, obj.Faces)
     return Settings(faces or None, _names(obj, obj.Freeze), obj.Method, sizes if sizes[0] else "auto", obj.SourcePoints,
                     obj.Isometry)
@@ -118,12 +118,10 @@ def report_of(obj: Any) -> dict[str, Any]:
 def _names(obj: Any, links: list) -> tuple[str, ...]:
     for item, _ in links:
         if item is not obj.Source:
-            raise InputError(f"A face of {item.Label} is named, but {obj.Label} is made from {obj.Source.Label}: choose faces "
-                             f"of one part.")
+            raise InputError(f"A face of {item.Label} is named, but {obj.Label} is made from {obj.Source.Label}: "
+                             f"choose faces of one part.")
     return tuple(name for _, names in links for name in names if name)
 
 
 def _vectors(grids: list[np.ndarray]) -> list[FreeCAD.Vector]:
     return [FreeCAD.Vector(*point) for grid in grids for point in grid.reshape(-1, 3).tolist()]
-
-

@@ -34,7 +34,7 @@ class Feature:
 
     def ensure_properties(self, obj: Any) -> None:
         """Add the properties that the object does not have yet."""
-        version = Property("SchemaVersion", "App::PropertyInteger", "Base", "The layout of the properties", None, HIDDEN)
+        version = Property("SchemaVersion", "App::PropertyInteger", "Base", "Layout of the properties", None, HIDDEN)
         for item in (*self.PROPERTIES, version):
             if item.name not in obj.PropertiesList:
                 obj.addProperty(item.kind, item.name, item.group, item.tooltip, item.attributes)

@@ -15,6 +15,9 @@ from ..errors import InputError
 
 Array = NDArray[np.float64]
 
+_INDEX = """<Content>
+<Points file="Points" mtrx="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "/>
+</Content>"""
 _FAR = 1000.0
 """A scan farther from the origin than this (mm) is stored about a local origin: documents hold points as float32."""
 
@@ -63,8 +66,7 @@ def _kernel(points: Array) -> Points.Points:
     """Points as FreeCAD's own, by way of its file format: adding them one by one takes 50 times as long."""
     memory = io.BytesIO()
     with zipfile.ZipFile(memory, "w", zipfile.ZIP_STORED) as archive:
-        archive.writestr("Persistence.xml", '<Content>\n<Points file="Points" mtrx="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "/>\n'
-                                            '</Content>')
+        archive.writestr("Persistence.xml", _INDEX)
         archive.writestr("Points", np.uint32(len(points)).tobytes() + points.astype("<f4").tobytes())
     kernel = Points.Points()
     kernel.restoreContent(memory.getvalue())

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _MOST_POINTS = 60_000
-_COLOURS = ("#27348b", "#2f7fc8", "#7cc4cf", "#8dbd8b", "#f0cf5b", "#e8792f", "#a8122a")
+COLOURS = ("#27348b", "#2f7fc8", "#7cc4cf", "#8dbd8b", "#f0cf5b", "#e8792f", "#a8122a")
 _INK, _MUTED, _PAPER = "#1d2733", "#6b7785", "#ffffff"
 _BEFORE, _AFTER = "#c2703d", "#2b6cb0"
 
@@ -116,7 +116,7 @@ def _draw_view(axes: Axes, points: Array, panel: Panel, view: Array, limit: floa
     size = float(np.clip(60_000 / len(chosen), 1.2, 14.0))
     axes.add_collection(LineCollection([line @ view[:2].T for line in panel.edges], colors=_INK, linewidths=0.7,
                                        alpha=0.75, zorder=3))
-    colours = LinearSegmentedColormap.from_list("deviation", _COLOURS)
+    colours = LinearSegmentedColormap.from_list("deviation", COLOURS)
     coloured = axes.scatter(*seen[order, :2].T, c=panel.deviations[chosen][order], s=size, cmap=colours, vmin=-limit,
                             vmax=limit, linewidths=0, zorder=2)
     axes.set(xlim=(box[0][0], box[1][0]), ylim=(box[0][1], box[1][1]), aspect="equal")

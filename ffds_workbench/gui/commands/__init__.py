@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands, one module each, and where they appear. They load nothing heavy before they are run."""
+from __future__ import annotations
+
+import FreeCADGui as Gui
+
+from .align_scan import AlignScan
+from .deform_faces import DeformFaces
+from .deform_workpiece import DeformWorkpiece
+from .export_as_built import ExportAsBuilt
+from .import_scan import ImportScan
+from .load_example import LoadExample
+from .show_deviation import ShowDeviation
+from .show_lattice import ShowLattice
+from .simulate_scan import SimulateScan
+
+COMMANDS = (ImportScan, AlignScan, DeformFaces, DeformWorkpiece, ShowDeviation, ShowLattice, SimulateScan,
+            ExportAsBuilt, LoadExample)
+TOOLBAR = [command.NAME for command in COMMANDS]
+CONTEXT = [command.NAME for command in (DeformFaces, DeformWorkpiece, AlignScan, ShowDeviation, ShowLattice,
+                                        ExportAsBuilt)]
+
+
+def register() -> None:
+    """Make the commands known to FreeCAD."""
+    for command in COMMANDS:
+        Gui.addCommand(command.NAME, command())

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FFDS_AlignScan: brings the selected scan onto the selected part."""
+from __future__ import annotations
+
+from ..running import call, in_background, name_of, tell
+from .command import Command, part_and_scan
+
+
+class AlignScan(Command):
+    """Moves the scan as a rigid body, from anywhere."""
+
+    NAME = "FFDS_AlignScan"
+    MENU = "Align scan with part"
+    TIP = "Move the selected scan onto the selected part, from wherever it lies"
+    KEYS = "F, A"
+
+    def active(self) -> bool:
+        """With one part, and one scan selected or known."""
+        return None not in part_and_scan()
+
+    def run(self) -> None:
+        """Find the pose in the background, then move the scan in one undo step."""
+        from ...objects import alignment
+
+        part, scan = part_and_scan()
+        found = in_background("Aligning the scan", alignment.prepare(part, scan, "global"))
+        call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
+        if found.alignment.poses and found.alignment.confidence < 0.5:
+            tell(f"The alignment is not sure: {found.alignment.text}. Look at the scan, or undo and place it by hand.")

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The base of the commands: resources, when they are active, and refusals as one sentence."""
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD
+import FreeCADGui as Gui
+
+from ... import RESOURCES
+from ..running import telling
+from ..selection import Chosen, chosen, scans_of
+
+
+class Command:
+    """A command; subclasses set the names and define `active` and `run`."""
+
+    NAME = MENU = TIP = KEYS = ""
+
+    def GetResources(self) -> dict[str, str]:  # noqa: N802
+        """What FreeCAD shows of the command."""
+        return {"MenuText": self.MENU, "ToolTip": self.TIP, "Accel": self.KEYS, "WhatsThis": self.NAME,
+                "StatusTip": self.TIP, "Pixmap": str(RESOURCES / "icons" / f"{self.NAME}.svg")}
+
+    def IsActive(self) -> bool:  # noqa: N802
+        """Whether the command can be used now; asked often."""
+        return not Gui.Control.activeDialog() and self.active()
+
+    def Activated(self, index: int = 0) -> None:  # noqa: N802
+        """The user chose the command."""
+        with telling():
+            self.run()
+
+    def active(self) -> bool:
+        """Whether selection and document allow it."""
+        return FreeCAD.ActiveDocument is not None
+
+    def run(self) -> None:
+        """Do it."""
+        raise NotImplementedError
+
+
+def one_part(selected: Chosen) -> Any:
+    """The selected part where it is the only one, else None."""
+    return selected.parts[0] if len(selected.parts) == 1 else None
+
+
+def one_scan(selected: Chosen) -> Any:
+    """The selected scan, or the document's only one; else None."""
+    if selected.scans:
+        return selected.scans[0] if len(selected.scans) == 1 else None
+    known = scans_of(FreeCAD.ActiveDocument) if FreeCAD.ActiveDocument is not None else []
+    return known[0] if len(known) == 1 else None
+
+
+def part_and_scan() -> tuple[Any, Any]:
+    """The part and the scan that the selection means; None for what it leaves open."""
+    selected = chosen()
+    part, scan = one_part(selected), one_scan(selected)
+    if part is not None and not selected.scans and getattr(part, "Scan", None) is not None:
+        scan = part.Scan
+    return part, scan

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""FFDS_ExportAsBuilt: the selected part into a file, with its name and face colours."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import FreeCADGui as Gui
+
+from ..qt import QtWidgets
+from ..running import ACTIONS, name_of
+from ..selection import chosen
+from .command import Command, one_part
+
+_FORMATS = "STEP (*.step *.stp);;BREP (*.brep);;FreeCAD document (*.FCStd)"
+
+
+class ExportAsBuilt(Command):
+    """Writes a file that is complete or not there."""
+
+    NAME = "FFDS_ExportAsBuilt"
+    MENU = "Export as-built part…"
+    TIP = "Write the selected part as STEP, BREP or FCStd, with its name and face colours"
+    KEYS = "F, E"
+
+    def active(self) -> bool:
+        """With one part selected."""
+        return one_part(chosen()) is not None
+
+    def run(self) -> None:
+        """Ask for a file and write it."""
+        part = one_part(chosen())
+        path, kind = QtWidgets.QFileDialog.getSaveFileName(
+            Gui.getMainWindow(), "Export as-built part", f"{part.Label.replace(' ', '_')}.step", _FORMATS)
+        if not path:
+            return
+        suffix = "" if Path(path).suffix else {"S": ".step", "B": ".brep", "F": ".FCStd"}[(kind or "S")[0]]
+        Gui.addModule(ACTIONS)
+        Gui.doCommand(f"{ACTIONS}.export_as_built({name_of(part)}, {path + suffix!r})")

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of the deviation map: colours over the scan or the part, legend, histogram, value under the cursor."""
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCADGui as Gui
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .. import api
+from ..brep import files, workpiece
+from ..objects.as_built import is_as_built
+from ..objects.scans import scan_points
+from ..registration.raster import make_raster
+from . import running
+from .colours import good_limit, packed_colours
+from .legend import Legend
+from .overlay import Overlay, mesh_node, points_node
+from .panel import choice, length, named, wrapped
+from .preview import cell_values, surface_grid
+from .qt import QtWidgets
+
+Array = NDArray[np.float64]
+
+_NEAR = 3.0
+"""Points farther from the cursor than this (mm) are not under it."""
+
+
+def open_panel(part: Any, scan: Any) -> None:
+    """Measure, and show the panel (main thread); refusals are said."""
+    with running.telling():
+        states = [("As built", part), ("Nominal", part.Source)] if is_as_built(part) else [("Part", part)]
+        points = scan_points(scan)
+        models = [(name, files.from_object(item)) for name, item in states]
+
+        def measure(progress: Any) -> list[Any]:
+            return [(name, api.deviation(model, points, progress)) for name, model in models]
+
+        found = running.in_background("Measuring the deviation", measure)
+        Gui.Control.showDialog(DeviationPanel(part.Document, found))
+
+
+class DeviationPanel:
+    """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part."""
+
+    def __init__(self, document: Any, found: list[tuple[str, api.Deviation]]) -> None:
+        self._found = dict(found)
+        self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
+        self.form = QtWidgets.QWidget()
+        self.form.setWindowTitle("Deviation")
+        self._state = choice("FfdsState", [(name, name) for name, _ in found], "Before or after the deformation")
+        self._on = choice("FfdsOn", [("the scan", "scan"), ("the part", "part")], "What carries the colours")
+        limit = max(good_limit(_deviations(item)) for _, item in found)
+        self._limit = length("FfdsLimit", limit, 1e4, "The colour scale ends here, on both sides")
+        self._tolerance = length("FfdsTolerance", 0.0, 1e4, "Deviations up to this are shown in one green; 0: none")
+        self._tolerance.setSingleStep(limit / 20)
+        self._legend = named(Legend(), "FfdsLegend")
+        self._figures, self._cursor = wrapped("FfdsFigures"), wrapped("FfdsCursor")
+        column = QtWidgets.QVBoxLayout(self.form)
+        rows = QtWidgets.QFormLayout()
+        for label, widget in (("State", self._state), ("Colours on", self._on), ("Range ±", self._limit),
+                              ("Tolerance ±", self._tolerance)):
+            rows.addRow(label, widget)
+        column.addLayout(rows)
+        for widget in (self._figures, self._legend, self._cursor):
+            column.addWidget(widget)
+        for widget in (self._state, self._on):
+            widget.currentIndexChanged.connect(self._show)
+        for widget in (self._limit, self._tolerance):
+            widget.valueChanged.connect(self._show)
+        self._view = Gui.getDocument(document.Name).ActiveView
+        self._overlay = Overlay(document.Name)
+        self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
+        self._show()
+
+    def _show(self, *_: Any) -> None:
+        item = self._found[self._state.currentData()]
+        values = _deviations(item)
+        self._points = item.scan.points[np.concatenate([face.points for face in item.faces])]
+        self._values, self._tree = values, cKDTree(self._points)
+        limit, tolerance = max(self._limit.value(), 1e-6), self._tolerance.value()
+        if self._on.currentData() == "scan":
+            nodes = [points_node(self._points, packed_colours(values, limit, tolerance))]
+        else:
+            nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance))
+                     for points, triangles, means in self._coloured_faces(item)]
+        self._overlay.show(nodes)
+        self._legend.show_deviations(values, limit, tolerance)
+        self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
+        self._cursor.setText("Point at the part to read the deviation there.")
+
+    def _coloured_faces(self, item: api.Deviation) -> list[tuple[Array, Array, Array]]:
+        name = self._state.currentData()
+        if name not in self._meshes:
+            part = workpiece.read(item.model.shape)
+            self._meshes[name] = []
+            for index, face in enumerate(item.faces):
+                if len(face.points):
+                    raster = make_raster(part.geometry(index))
+                    means = cell_values(raster, item.scan.points[face.points], face.deviations)
+                    self._meshes[name].append((raster.position, surface_grid(raster), means))
+        return self._meshes[name]
+
+    def _moved(self, event: dict) -> None:
+        """The mouse moved in the view: read the deviation of the scan point next to what is under it."""
+        found = self._view.getObjectInfo(tuple(event["Position"]))
+        if not found:
+            return
+        distance, index = self._tree.query((found["x"], found["y"], found["z"]))
+        if distance <= max(_NEAR, 3.0 * self._limit.value()):
+            x, y, z = self._points[index]
+            self._cursor.setText(f"<b>{self._values[index]:+.3f} mm</b> at {x:.1f}, {y:.1f}, {z:.1f}")
+
+    def reject(self) -> bool:
+        """Close: everything drawn goes away."""
+        try:
+            self._view.removeEventCallback("SoLocation2Event", self._callback)
+        finally:
+            self._overlay.remove()
+        return True
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """Close."""
+        return int(QtWidgets.QDialogButtonBox.Close)
+
+
+def _deviations(item: api.Deviation) -> Array:
+    return np.concatenate([face.deviations for face in item.faces])
+
+
+def _figures_text(block: dict[str, float], values: Array, tolerance: float) -> str:
+    text = (f"{len(values)} points: mean {block['mean']:.3f} mm, 95 % below {block['p95']:.3f} mm, largest "
+            f"{block['max']:.3f} mm, signed mean {block['signed_mean']:+.3f} mm")
+    if tolerance > 0:
+        text += f"; {100 * np.mean(np.abs(values) <= tolerance):.1f} % within the tolerance"
+    return text

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Coin nodes over the 3D view: coloured points and faces, control lattices. No document objects, not pickable."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import FreeCADGui as Gui
+import numpy as np
+from numpy.typing import NDArray
+from pivy import coin
+
+from ..objects.lattices import Lattice
+
+Array = NDArray[np.float64]
+
+BEFORE, AFTER = (0.42, 0.46, 0.52), (1.0, 0.45, 0.05)
+"""Colours of the control lattice before and after."""
+
+
+class Overlay:
+    """One group of nodes in the view that was active when it was made; ``remove`` it in a ``finally``."""
+
+    def __init__(self, document_name: str) -> None:
+        self._view = Gui.getDocument(document_name).ActiveView
+        self._root = coin.SoSeparator()
+        style = coin.SoPickStyle()
+        style.style = coin.SoPickStyle.UNPICKABLE
+        self._root.addChild(style)
+        self._frame = coin.SoMatrixTransform()
+        self._root.addChild(self._frame)
+        self._content = coin.SoGroup()
+        self._root.addChild(self._content)
+        self._view.getSceneGraph().addChild(self._root)
+
+    def show(self, nodes: Sequence[Any], frame: Array | None = None) -> None:
+        """Show these nodes instead of the earlier ones; ``frame`` (4, 4) takes their coordinates to the document's."""
+        if frame is not None:
+            self._frame.matrix.setValue(coin.SbMatrix(*frame.T.ravel().tolist()))
+        self._content.removeAllChildren()
+        for node in nodes:
+            self._content.addChild(node)
+
+    def remove(self) -> None:
+        """Take everything out of the view; harmless where the view is gone already."""
+        try:
+            self._view.getSceneGraph().removeChild(self._root)
+        except (ReferenceError, RuntimeError):
+            return
+
+
+def points_node(points: Array, colours: NDArray[np.uint32], size: float = 3.0) -> Any:
+    """Coloured points: (n, 3) in mm and (n,) packed colours."""
+    node = coin.SoSeparator()
+    node.addChild(_flat_light())
+    style = coin.SoDrawStyle()
+    style.pointSize = size
+    node.addChild(style)
+    node.addChild(_colours(colours, coin.SoMaterialBinding.PER_VERTEX))
+    node.addChild(_coordinates(points))
+    node.addChild(coin.SoPointSet())
+    return node
+
+
+def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32]) -> Any:
+    """A coloured surface: (n, 3) in mm, (m, 3) indices and (n,) packed colours; drawn in front of what it covers."""
+    node = coin.SoSeparator()
+    offset = coin.SoPolygonOffset()
+    offset.factor, offset.units = -2.0, -2.0
+    node.addChild(offset)
+    hints = coin.SoShapeHints()
+    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+    hints.creaseAngle = 0.6
+    node.addChild(hints)
+    node.addChild(_colours(colours, coin.SoMaterialBinding.PER_VERTEX_INDEXED))
+    node.addChild(_coordinates(points))
+    faces = coin.SoIndexedFaceSet()
+    index = np.column_stack([triangles, np.full(len(triangles), -1)]).astype(np.int32).ravel()
+    faces.coordIndex.setValues(0, len(index), index.tolist())
+    node.addChild(faces)
+    return node
+
+
+def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:
+    """Control lattices before and after: their rows and columns as lines, their control points as points."""
+    if not lattices:
+        return []
+    return [_lattice_node([item.nominal for item in lattices], BEFORE, 1.0, 0.0),
+            _lattice_node([item.deformed for item in lattices], AFTER, 1.5, 6.0)]
+
+
+def _lattice_node(grids: Sequence[Array], colour: tuple[float, float, float], width: float, size: float) -> Any:
+    node = coin.SoSeparator()
+    node.addChild(_flat_light())
+    base = coin.SoBaseColor()
+    base.rgb.setValue(*colour)
+    node.addChild(base)
+    style = coin.SoDrawStyle()
+    style.lineWidth, style.pointSize = width, max(size, 1.0)
+    node.addChild(style)
+    lines = [row for grid in grids for row in (*grid, *grid.swapaxes(0, 1))]
+    node.addChild(_coordinates(np.concatenate(lines)))
+    strips = coin.SoLineSet()
+    counts = [len(line) for line in lines]
+    strips.numVertices.setValues(0, len(counts), counts)
+    node.addChild(strips)
+    if size:
+        node.addChild(_coordinates(np.concatenate([grid.reshape(-1, 3) for grid in grids])))
+        node.addChild(coin.SoPointSet())
+    return node
+
+
+def _flat_light() -> Any:
+    light = coin.SoLightModel()
+    light.model = coin.SoLightModel.BASE_COLOR
+    return light
+
+
+def _coordinates(points: Array) -> Any:
+    node = coin.SoCoordinate3()
+    node.point.setValues(0, len(points), np.ascontiguousarray(points, dtype=np.float32))
+    return node
+
+
+def _colours(colours: NDArray[np.uint32], binding: int) -> Any:
+    group = coin.SoGroup()
+    bound = coin.SoMaterialBinding()
+    bound.value = binding
+    group.addChild(bound)
+    packed = coin.SoPackedColor()
+    packed.orderedRGBA.setValues(0, len(colours), np.ascontiguousarray(colours, dtype=np.uint32))
+    group.addChild(packed)
+    return group

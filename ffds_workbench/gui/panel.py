@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the task panels share: named widgets, folded groups, and the numbers under them."""
+from __future__ import annotations
+
+from typing import Any
+
+from .qt import QtWidgets
+
+
+def named(widget: Any, name: str, tip: str = "") -> Any:
+    """The widget with an object name, by which tests and style sheets find it, and a tooltip."""
+    widget.setObjectName(name)
+    widget.setToolTip(tip)
+    return widget
+
+
+def spin(name: str, value: int, low: int, high: int, tip: str) -> Any:
+    """A box for a whole number."""
+    box = named(QtWidgets.QSpinBox(), name, tip)
+    box.setRange(low, high)
+    box.setValue(value)
+    return box
+
+
+def length(name: str, value: float, high: float, tip: str, decimals: int = 3) -> Any:
+    """A box for a length in mm."""
+    box = named(QtWidgets.QDoubleSpinBox(), name, tip)
+    box.setDecimals(decimals)
+    box.setRange(0.0, high)
+    box.setSingleStep(max(value / 10, 10.0**-decimals))
+    box.setSuffix(" mm")
+    box.setValue(value)
+    return box
+
+
+def choice(name: str, entries: list[tuple[str, Any]], tip: str) -> Any:
+    """A list to choose one entry of: (text, value)."""
+    box = named(QtWidgets.QComboBox(), name, tip)
+    for text, value in entries:
+        box.addItem(text, value)
+    return box
+
+
+def folded(title: str, name: str, content: Any) -> Any:
+    """A widget that is folded away below its title until it is asked for."""
+    holder = QtWidgets.QWidget()
+    column = QtWidgets.QVBoxLayout(holder)
+    column.setContentsMargins(0, 0, 0, 0)
+    button = named(QtWidgets.QToolButton(), name)
+    button.setText(f"▸ {title}")
+    button.setAutoRaise(True)
+    button.setCheckable(True)
+    content.setVisible(False)
+
+    def fold(open_: bool) -> None:
+        content.setVisible(open_)
+        button.setText(f"{'▾' if open_ else '▸'} {title}")
+
+    button.toggled.connect(fold)
+    column.addWidget(button)
+    column.addWidget(content)
+    return holder
+
+
+def wrapped(name: str) -> Any:
+    """A label for sentences."""
+    label = named(QtWidgets.QLabel(), name)
+    label.setWordWrap(True)
+    return label

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How the GUI lets things happen: one undo step per command, work in the background, refusals as one sentence."""
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import FreeCADGui as Gui
+
+from ..errors import FfdsError
+from .qt import QtCore, QtWidgets, execute
+
+ACTIONS = "ffds_workbench.objects.actions"
+_POLL_MS = 30
+
+
+class Cancelled(Exception):
+    """The user does not want the result any more."""
+
+
+@contextmanager
+def telling() -> Iterator[None]:
+    """What is refused within goes to the user as a sentence; a cancellation ends quietly."""
+    try:
+        yield
+    except FfdsError as refusal:
+        tell(str(refusal))
+    except Cancelled:
+        return
+
+
+def tell(sentence: str) -> None:
+    """Show one sentence in a dialog."""
+    box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Warning, "FFDS", sentence, QtWidgets.QMessageBox.Ok,
+                                Gui.getMainWindow())
+    box.setObjectName("FfdsMessage")
+    execute(box)
+
+
+def name_of(item: Any) -> str:
+    """Python text that finds a document object again; None for none."""
+    return f"FreeCAD.getDocument({item.Document.Name!r}).getObject({item.Name!r})" if item is not None else "None"
+
+
+def call(document: Any, title: str, line: str) -> None:
+    """Run a recordable line of Python that calls `ACTIONS`, as one undo step; a failure leaves nothing behind."""
+    document.openTransaction(title)
+    try:
+        Gui.addModule(ACTIONS)
+        Gui.doCommand(f"{ACTIONS}.{line}")
+    except BaseException:
+        document.abortTransaction()
+        raise
+    document.commitTransaction()
+
+
+class Worker(QtCore.QObject):
+    """Runs ``work(progress)`` in a thread and reports on the main one.
+
+    Parameters
+    ----------
+    work : touches no document; the thread ends at the next ``progress`` after a cancellation
+    done : called with the result
+    failed : called with the exception
+    told : called with what is being done
+    """
+
+    def __init__(self, work: Callable[[Callable[[str], None]], Any], done: Callable[[Any], None],
+                 failed: Callable[[BaseException], None], told: Callable[[str], None]) -> None:
+        super().__init__()
+        self._calls = {"done": done, "failed": failed, "told": told}
+        self._work = work
+        self._news: queue.SimpleQueue = queue.SimpleQueue()
+        self._cancelled = threading.Event()
+        self._timer = QtCore.QTimer(self)
+        self._timer.timeout.connect(self._report)
+        self._timer.start(_POLL_MS)
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def cancel(self) -> None:
+        """Drop the result; nothing more is reported."""
+        self._cancelled.set()
+        self._timer.stop()
+
+    def _run(self) -> None:
+        try:
+            self._news.put(("done", self._work(self._progress)))
+        except BaseException as failure:
+            self._news.put(("failed", failure))
+
+    def _progress(self, text: str) -> None:
+        if self._cancelled.is_set():
+            raise Cancelled
+        self._news.put(("told", text))
+
+    def _report(self) -> None:
+        while not self._cancelled.is_set() and not self._news.empty():
+            kind, value = self._news.get()
+            if kind != "told":
+                self._timer.stop()
+            self._calls[kind](value)
+
+
+def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> Any:
+    """The value of ``work(progress)``, while FreeCAD stays alive behind a dialog with a Cancel button.
+
+    Raises
+    ------
+    Cancelled : the user pressed Cancel
+    Exception : whatever the work raised
+    """
+    dialog = QtWidgets.QProgressDialog(title, "Cancel", 0, 0, Gui.getMainWindow())
+    dialog.setObjectName("FfdsProgress")
+    dialog.setWindowTitle("FFDS")
+    dialog.setWindowModality(QtCore.Qt.ApplicationModal)
+    dialog.setMinimumDuration(300)
+    loop = QtCore.QEventLoop()
+    outcome: dict[str, Any] = {}
+
+    def ended(kind: str, value: Any) -> None:
+        outcome[kind] = value
+        loop.quit()
+
+    worker = Worker(work, lambda value: ended("value", value), lambda failure: ended("failure", failure),
+                    dialog.setLabelText)
+    dialog.canceled.connect(lambda: ended("failure", Cancelled()))
+    dialog.setValue(0)
+    try:
+        execute(loop)
+    finally:
+        worker.cancel()
+        dialog.close()
+        dialog.deleteLater()
+    if "failure" in outcome:
+        raise outcome["failure"]
+    return outcome["value"]

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is selected, sorted into parts, their faces, scans, and what is neither."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import FreeCADGui as Gui
+
+
+@dataclass
+class Chosen:
+    """The selection.
+
+    Attributes
+    ----------
+    parts : objects with a shape, in the order of their selection
+    faces : names of the selected faces, by the name of their part
+    scans : Points objects
+    others : labels of what is none of these, an edge as "Part.Edge3"
+    """
+
+    parts: list[Any] = field(default_factory=list)
+    faces: dict[str, list[str]] = field(default_factory=dict)
+    scans: list[Any] = field(default_factory=list)
+    others: list[str] = field(default_factory=list)
+
+
+def chosen() -> Chosen:
+    """The current selection; nested objects are taken as themselves."""
+    found = Chosen()
+    for entry in Gui.Selection.getSelectionEx():
+        item = entry.Object
+        if item.isDerivedFrom("Points::Feature"):
+            found.scans.append(item)
+        elif _is_part(item):
+            if item not in found.parts:
+                found.parts.append(item)
+            found.faces.setdefault(item.Name, []).extend(
+                name for name in entry.SubElementNames if name.startswith("Face"))
+            found.others.extend(f"{item.Label}.{name}" for name in entry.SubElementNames
+                                if name.startswith(("Edge", "Vertex")))
+        else:
+            found.others.append(item.Label)
+    return found
+
+
+def scans_of(document: Any) -> list[Any]:
+    """The point clouds of a document."""
+    return [item for item in document.Objects if item.isDerivedFrom("Points::Feature")]
+
+
+def _is_part(item: Any) -> bool:
+    if item.isDerivedFrom("Sketcher::SketchObject"):
+        return False
+    return item.isDerivedFrom("App::Link") or bool(getattr(getattr(item, "Shape", None), "Faces", ()))
