@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..splines import Array
@@ -17,7 +18,7 @@ from .sketch import Plane, Sketch, find_table, sketch_of, thin
 from .symmetry import Symmetry, symmetry_of
 from .target import Target
 from .units import plausible_scales, unit_name
-from .verify import Evidence, examine, facing_normals, is_rough, seen_side
+from .verify import Evidence, examine, facing_normals, is_rough
 
 
 
@@ -236,33 +237,31 @@ def _turns_up_to(largest: float, count: int) -> Array:
 
 
 def _verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
-    """The pose refined against the side of the part that it says the scan shows, and what speaks for it."""
-    light, gate = target.light, 0.06 * target.size
+    """The pose refined against the side of the part that the scan shows, and what speaks for it."""
+    light, gate = target.light, 0.08 * target.size
     if is_rough(target, sketch):
         pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
         turned = facing_normals(light, apply(pose, sketch.points))
         return Verified(pose, examine(light, sketch, pose, turned, table), turned)
     piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
     normals = signs[piece][:, None] * sketch.normals
-    for _ in range(2):
-        moved = apply(pose, sketch.points)
-        side = seen_side(light, moved, normals @ pose[:3, :3].T, 0.05 * target.size)
-        pose = refine(side, sketch.points, pose, (gate,), 6)
+    pose = refine(light, sketch.points, pose, (gate,), 12, normals)
     turned = normals @ pose[:3, :3].T
     return Verified(pose, examine(light, sketch, pose, turned, table), turned)
 
 
 def _polish(target: Target, sketch: Sketch, found: Verified, count: int = _POLISH_POINTS) -> Array:
-    """The pose on thousands of points, against the side of the part that the scan shows.
+    """The pose on thousands of points, each against the side of the part that it shows.
 
-    Where the noise is large the side is a guess, and gross errors reach far: the whole part then, and a closer gate.
+    Where the noise is large the side is a guess, and gross errors reach far: no normals then, and a closer gate. Else
+    the gate is wide: of a deformed part the pose is wanted that fits all of it best, not where it deformed least.
     """
     points = sketch.pool[thin(sketch.pool, count)]
     if is_rough(target, sketch):
         gate = max(0.02 * target.size, 3.0 * sketch.noise)
         return refine(target, points, found.pose, (2.0 * gate, gate), 15)
-    side = seen_side(target, apply(found.pose, sketch.points), found.normals, 0.05 * target.size)
-    return refine(side, points, found.pose, (0.05 * target.size,), 8)
+    normals = (found.normals @ found.pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
+    return refine(target, points, found.pose, (0.12 * target.size,), 8, normals)
 
 
 def _answer(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],

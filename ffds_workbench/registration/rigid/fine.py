@@ -10,8 +10,9 @@ from ..splines import Array
 from .motions import apply, step
 from .target import Target
 
-_SETTLE = 9.0
-"""Cut-off of the last stage in robust standard deviations of the residuals: noise and deformation count in full."""
+_MOST, _SETTLE = 0.85, 4.0
+"""Cut-off of the weights: so many times the residual that most points stay below. Noise and deformation count nearly in
+full, as the best fit of a deformed part wants it; what lies apart does not."""
 _STILL = 1e-5
 """A step below this share of the part's size ends a stage."""
 
@@ -22,19 +23,22 @@ def tukey(residual: Array, cutoff: float | Array) -> Array:
     return np.where(np.abs(ratio) < 1.0, (1.0 - ratio * ratio) ** 2, 0.0)
 
 
-def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12) -> Array:
+def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12,
+           normals: Array | None = None) -> Array:
     """Rigid pose at which the points fit the faces best, found from a pose nearby.
 
     A point counts by its height over the face, and where it sticks out beyond the rim of the face, by that as well.
 
     Parameters
     ----------
-    target : the nominal model, or the part of it that the scan sees
+    target : the nominal model
     points : (n, 3) in mm, scan coordinates
     pose : (4, 4), T_model_scan to start from
     gates : largest distances in mm that still count, one stage each, in falling order; within the gate the cut-off of
         the weights follows the spread of the residuals
     iterations : most steps per stage
+    normals : (n, 3) outward unit vectors, scan coordinates: a deformed sheet may lie nearer to the far side of the
+        nominal one, and only the normals tell; None where they are not known
 
     Returns
     -------
@@ -43,15 +47,15 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
     for gate in gates:
         for _ in range(iterations):
             moved = apply(pose, points)
-            distance, nearest = target.tree.query(moved, distance_upper_bound=gate)
+            turned = None if normals is None else normals @ pose[:3, :3].T
+            distance, nearest = target.nearest(moved, turned, gate)
             near = np.isfinite(distance)
             if near.sum() < 12:
                 return pose
             moved, nearest = moved[near], nearest[near]
             height, normal = target.heights(moved, nearest)
             beyond, outwards = target.rims.overshoot(moved, target.samples.face[nearest], gate)
-            spread = 1.4826 * float(np.median(np.abs(height)))
-            limit = np.clip(_SETTLE * spread, 1e-3 * gate, gate)
+            limit = np.clip(_SETTLE * float(np.quantile(np.abs(height), _MOST)), 1e-3 * gate, gate)
             out = np.flatnonzero(beyond > 0)
             weight = np.concatenate([tukey(height, limit), tukey(beyond[out], gate)])
             update = gauss_newton(np.concatenate([moved, moved[out]]) - target.centre,

@@ -26,6 +26,10 @@ _VIEWS = 64
 _AREA_GRID = 40
 _TURN = 0.35
 """Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
+_TURN_LENGTH = 0.06
+"""A normal turned by 1 rad counts as a distance of this share of the part's size in the search for the nearest sample."""
+_FACING = 0.3
+"""Cosine below which a sample does not face the way a point's normal does."""
 _GRAZING = 0.15
 """Cosine under which a surface is too oblique for a camera to see it."""
 
@@ -77,6 +81,38 @@ class Target:
     @cached_property
     def tree(self) -> cKDTree:
         return cKDTree(self.samples.points)
+
+    @cached_property
+    def _sided_tree(self) -> cKDTree:
+        return cKDTree(np.hstack([self.samples.points, self._turn_length * self.samples.normals]))
+
+    @cached_property
+    def _turn_length(self) -> float:
+        return _TURN_LENGTH * self.size
+
+    def nearest(self, points: Array, normals: Array | None, reach: float) -> tuple[Array, NDArray[np.intp]]:
+        """Nearest sample, or where normals are given, the nearest one that faces about the same way.
+
+        Parameters
+        ----------
+        points : (n, 3) in mm
+        normals : (n, 3) outward unit vectors, or None
+        reach : in mm
+
+        Returns
+        -------
+        distance : (n,) in mm, infinite where nothing is within reach
+        index : (n,) of the sample, 0 where nothing is within reach
+        """
+        if normals is None:
+            distance, index = self.tree.query(points, distance_upper_bound=reach)
+            return distance, np.where(np.isfinite(distance), index, 0)
+        place = np.hstack([points, self._turn_length * normals])
+        index = self._sided_tree.query(place, distance_upper_bound=np.hypot(reach, self._turn_length))[1]
+        index = np.where(index < len(self.samples.area), index, 0)
+        distance = np.linalg.norm(points - self.samples.points[index], axis=1)
+        facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING
+        return np.where(facing & (distance < reach), distance, np.inf), index
 
     @cached_property
     def centre(self) -> Array:

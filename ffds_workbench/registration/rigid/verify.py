@@ -2,7 +2,7 @@
 """Does a pose explain the scan, and the scan the part? Judged against the model, whatever proposed the pose."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,21 +58,6 @@ def facing_normals(target: Target, points: Array) -> Array:
     return target.samples.normals[target.tree.query(points)[1]]
 
 
-def seen_side(target: Target, points: Array, normals: Array, reach: float) -> Target:
-    """The part of the target that the scan shows: samples near points whose normals face the same way.
-
-    Parameters
-    ----------
-    points, normals : (n, 3) of the scan in model coordinates, normals outward
-    reach : in mm
-    """
-    distance, index = cKDTree(points).query(target.samples.points, k=3, distance_upper_bound=reach)
-    padded = np.concatenate([normals, np.zeros((1, 3))])
-    facing = np.einsum("nki,ni->nk", padded[index], target.samples.normals) > 0.5
-    chosen = (facing & np.isfinite(distance)).any(axis=1)
-    return replace(target, samples=target.samples[chosen]) if chosen.sum() > 100 else target
-
-
 def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None) -> Evidence:
     """Weigh a pose.
 
@@ -85,11 +70,10 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     """
     size = target.size
     moved = apply(pose, sketch.points)
-    shown = seen_side(target, moved, normals, 2.0 * _NEAR * size)
-    nearest = shown.tree.query(moved)[1]
-    height, normal = shown.heights(moved, nearest)
-    beside = _beside(shown, moved, nearest, height, normal)
-    agree = np.einsum("ni,ni->n", normals, shown.samples.normals[nearest]) > _NORMALS_AGREE
+    apart, nearest = target.nearest(moved, normals, 2.0 * _NEAR * size)
+    height, normal = target.heights(moved, nearest)
+    beside = _beside(target, moved, nearest, height, normal)
+    agree = np.isfinite(apart) & (np.einsum("ni,ni->n", normals, normal) > _NORMALS_AGREE)
     on_part = agree & (np.abs(height) < _NEAR * size) & (beside < _NEAR * size)
     # under large noise a smooth deformation could not be told from a wrong pose
     left = height if is_rough(target, sketch) else height - _smooth_part(moved, normal, height, on_part, size)
