@@ -40,7 +40,8 @@ from .outputs import check_model_output, check_outputs, write, write_deviation, 
 from .registering import Result, register  # noqa: E402
 from .simulating import simulate  # noqa: E402
 
-__all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result", "RobotSettings",
-           "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "align_scan", "carry", "check_model_output",
-           "check_outputs", "check_seam_outputs", "deviation", "plan_seams", "read_frame_choice", "read_model",
-           "read_scan", "register", "simulate", "write", "write_alignment", "write_deviation", "write_seams", "write_simulation"]
+__all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result",
+           "RobotSettings", "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "align_scan",
+           "carry", "check_model_output", "check_outputs", "check_seam_outputs", "deviation", "plan_seams",
+           "read_frame_choice", "read_model", "read_scan", "register", "simulate", "write", "write_alignment",
+           "write_deviation", "write_seams", "write_simulation"]

@@ -51,9 +51,11 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
     command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
-                         help="faces to deform (default: every face that the scan observes)")
+                         help="faces to deform, each by itself (default: the whole part)")
     command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
                          help="faces that must not move")
+    command.add_argument("--align", choices=["none", "fine", "global"], default="none",
+                         help="bring the scan onto the model first (default: none)")
     seam_options.add_options(command)
     command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS),
                          help="default: all three")
@@ -75,8 +77,12 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
     progress(f"Reading {', '.join(map(str, options.scan))}")
     scan = api.read_scan(options.scan, options.scan_unit)
     wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
-    result = api.register(model, scan, options.face, freeze=options.freeze, progress=progress)
-    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress)
+    aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
+    result = api.register(model, scan if aligned is None else aligned.scan, options.face, freeze=options.freeze,
+                          progress=progress)
+    first = [] if aligned is None else [Step("Alignment", "The scan brought onto the model by a rigid motion.",
+                                             aligned.table())]
+    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress, first)
     return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
 
 
@@ -90,8 +96,11 @@ def make_folder(path: Path) -> Path:
 
 
 def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str, inputs: Sequence[Path],
-                progress: Progress) -> str:
-    """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print."""
+                progress: Progress, first: Sequence[Step] = ()) -> str:
+    """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print.
+
+    ``first`` are the steps that went before, for the page.
+    """
     from .. import api
 
     report, picture = folder / "report.json", folder / "deviation.png"
@@ -108,6 +117,7 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     if "kuka" in wanted.dialects:
         programs.append("seams.dat")
     steps = [
+        *first,
         Step("Scan", "What the scanner saw, in the model's coordinates.", _about_scan(result.scan)),
         Step("As-built model", "The nominal model deformed to the scan, with its topology unchanged.", result.table(),
              picture.name, [as_built, report.name]),
@@ -117,7 +127,7 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
              _about_robot(wanted.robot), None, [*programs, "seams.FCStd"])]
     with replacing(folder / PAGE) as (temporary,):
         temporary.write_text(page(result.nominal.label, "From the scan to the robot's program.", steps), "utf-8")
-    return f"{result.table()}\n\n{seams}"
+    return "\n\n".join([*(step.figures for step in first), result.table(), seams])
 
 
 def _about_scan(scan: api.PointCloud) -> str:
