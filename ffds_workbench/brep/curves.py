@@ -88,8 +88,8 @@ class Offset:
 
     def __call__(self, t: Array) -> Array:
         """Points at the parameters: (n,) to (n, dim)."""
-        # The basis curves are smooth functions of t; a central difference is exact enough for a unit vector.
-        step = 1e-5 * max(1.0, float(np.ptp(t)))
+        # A central difference gives the direction to 1e-8, at the basis curve's C1 knots too.
+        step = 1e-8 * max(1.0, float(np.ptp(t)))
         tangent = self.basis(t + step) - self.basis(t - step)
         if self.normal is None:
             side = np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
@@ -125,7 +125,8 @@ def _read(tokens: list[str], dimension: int) -> Curve:
         origin, rest = numbers[:dimension], numbers[dimension:]
         if dimension == 3:
             rest = rest[3:]
-        return Conic(kind, origin, rest[:dimension], rest[dimension : 2 * dimension], tuple(rest[2 * dimension :].tolist()))
+        axis_x, axis_y = rest[: 2 * dimension].reshape(2, dimension)
+        return Conic(kind, origin, axis_x, axis_y, tuple(rest[2 * dimension :].tolist()))
     if kind == "6":
         rational, degree = bool(numbers[0]), int(numbers[1])
         poles = _homogeneous(numbers[2:], degree + 1, dimension, rational)

@@ -123,8 +123,8 @@ def _repeated(knots: Array) -> Array:
 def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool, tolerance: float) -> Spline:
     """Cubic through the mean of the traces over [first, last]; ends equal where the edge is ``closed``.
 
-    An edge on the seam of a closed surface is that surface's own curve there, and one that ends on the seam follows that
-    surface alone: off by a mere 1e-6 mm, readers of STEP cannot tell on which side of the seam they are.
+    An edge on the seam of a closed surface is that surface's own curve there, and one that ends on the seam follows
+    that surface alone: off by a mere 1e-6 mm, readers of STEP cannot tell on which side of the seam they are.
     """
     along = [trace for trace in traces if trace.on_seam]
     if along:

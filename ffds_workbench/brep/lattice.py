@@ -87,7 +87,7 @@ class Direction:
         return np.concatenate([points, points[:DEGREE]]) if self.closed else points
 
     def refined(self, errors: Array, tolerance: float, most: int) -> Direction:
-        """Spans whose error (spans,) exceeds the tolerance are split; the error of a cubic falls with the fourth power."""
+        """Spans whose error (spans,) exceeds the tolerance are split; a cubic's error falls with the fourth power."""
         breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
         pieces = np.ceil((errors / (0.7 * tolerance)) ** 0.25).astype(int)
         pieces = np.where(errors > tolerance, np.clip(pieces, 2, 6), 1)
@@ -98,14 +98,15 @@ class Direction:
             pieces = np.minimum(pieces, 2)
             worst = np.argsort(errors)[::-1][:room]
             pieces = np.where(np.isin(np.arange(len(pieces)), worst), pieces, 1)
-        new = [a + (b - a) * np.arange(1, k) / k for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
+        new = [a + (b - a) * np.arange(1, k) / k
+               for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
         if not new:
             return self
         return Direction(self.start, self.end, np.sort(np.concatenate([self.interior, *new])), self.closed)
 
 
 def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction:
-    """A direction to start from, interior knots at the seeds: inside, not closer than 1e-6 of it, multiplicity at most 3."""
+    """A direction to start from, interior knots at the seeds: inside, 1e-6 of it apart, multiplicity at most 3."""
     length = end - start
     seeds = np.sort(np.asarray(seeds, dtype=float))
     seeds = seeds[(seeds > start + 1e-6 * length) & (seeds < end - 1e-6 * length)]
@@ -157,7 +158,7 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
 
     Notes
     -----
-    Interpolation at Greville abscissae is well conditioned for cubics (de Boor, A Practical Guide to Splines, ch. XIII).
+    Interpolation at Greville abscissae is well conditioned for cubics (de Boor, A Practical Guide to Splines, XIII).
     """
     u = direction(box.u0, box.u1, seeds_u, box.closed_u)
     v = direction(box.v0, box.v1, seeds_v, box.closed_v)

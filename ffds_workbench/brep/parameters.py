@@ -70,7 +70,8 @@ def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -
         sides += [float(a), float(b)]
         closed.append(full)
     box = ParameterBox(*sides)
-    return ParameterBox(*sides, closed[0] and _smooth_seam(surface, box, 0), closed[1] and _smooth_seam(surface, box, 1))
+    smooth = [closed[axis] and _smooth_seam(surface, box, axis) for axis in (0, 1)]
+    return ParameterBox(*sides, *smooth)
 
 
 def _natural_bounds(surface: Part.GeometrySurface, v_inside: float) -> Array:

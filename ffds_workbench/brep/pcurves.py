@@ -98,7 +98,7 @@ class PcurveReader:
             tokens = tokens[5:]
         item = next((item for item in self._edge_curves(edge).representations if isinstance(item, Curve3d)), None)
         if tokens[0] != "1" or item is None:
-            raise RefusedError(f"Edge{edge + 1} has no curve in the parameters of Face{face + 1}: repair the shape first.")
+            raise RefusedError(f"Edge{edge + 1} has no curve in the (u, v) of Face{face + 1}: repair the shape first.")
         numbers = np.array(tokens[1:], dtype=float)
         axes, origin = numbers[6:].reshape(2, 3), numbers[:3]
         # From the curve's own coordinates into the surface's.

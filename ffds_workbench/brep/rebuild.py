@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Writes a deformed workpiece back as a shape with the same topology.
 
-Faces that move get a cubic B-spline surface over the same (u, v); their pcurves stay, so edges, holes and trims follow.
-Edges and vertices take the mean of what their faces say, and tolerances cover the rest. Everything else keeps its record.
+Faces that move get a cubic B-spline surface over the same (u, v); their pcurves stay, so edges, holes and trims
+follow. Edges and vertices take the mean of what their faces say, and tolerances cover the rest. Everything else keeps
+its record.
 """
 from __future__ import annotations
 
@@ -39,8 +40,8 @@ def rebuild(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement],
     ----------
     displacements : by face index (0-based). Faces that are not named, and the edges between them, stay exactly as they
         are; along an edge between a named and an unnamed face the displacement must be zero
-    tolerance : largest distance in mm of a face's new surface from the nominal surface plus its displacement. Edges gape
-        by about as much; looser is coarser and faster
+    tolerance : largest distance in mm of a face's new surface from the nominal surface plus its displacement. Edges
+        gape by about as much; looser is coarser and faster
 
     Raises
     ------
@@ -108,6 +109,8 @@ class _Geometry:
             for used in new.edges:
                 self._uses.setdefault(used.edge, []).append((face, used))
         self.edges = sorted(self._uses)
+        self._staying_vertices = {vertex for edge, ends in enumerate(instances.edge_ends)
+                                  if edge not in self._uses or self._stays(edge) for vertex, _ in ends}
 
     def _curves(self, edge: int) -> EdgeCurves:
         return self._brep.shapes[self._instances.edges[edge].shape].geometry
@@ -121,14 +124,18 @@ class _Geometry:
         return not users or any(face not in self._faces for face in users)
 
     def refuse_tears(self, displacements: Mapping[int, FaceDisplacement], workpiece: Workpiece) -> None:
-        """Refuse a displacement that is not zero where its face meets one that stays."""
-        fraction = np.linspace(0.0, 1.0, 65)
-        for edge in filter(self._stays, self.edges):
-            for face, used in self._uses[edge]:
+        """Refuse a displacement that is not zero where its face meets one that stays, be it at a vertex."""
+        for edge in self.edges:
+            fraction = np.linspace(0.0, 1.0, 65)
+            if not self._stays(edge):
+                fraction = np.array([0.0 if orientation == "+" else 1.0
+                                     for vertex, orientation in self._instances.edge_ends[edge]
+                                     if vertex in self._staying_vertices and orientation in "+-"])
+            for face, used in self._uses[edge] if len(fraction) else ():
                 uv = Trace(self._faces[face].surface, used.pcurves[0]).uv(fraction)
                 moved = displacements[face].evaluate(uv, workpiece.faces[face].at(uv))
                 if np.linalg.norm(moved, axis=1).max() > _STILL:
-                    raise RefusedError(f"Face{face + 1} would tear off at Edge{edge + 1}: its neighbour there does not move.")
+                    raise RefusedError(f"Face{face + 1} would tear off at Edge{edge + 1}, where its neighbour stays.")
 
     def edge(self, edge: int) -> NewEdge:
         """New curve and tolerance of an edge of a displaced face."""
@@ -137,7 +144,8 @@ class _Geometry:
             return NewEdge(None, old.tolerance)
         item = next((item for item in old.representations if isinstance(item, Curve3d)), None)
         if self._stays(edge) and item is not None:
-            matrix = self._locations.matrix(product(self._instances.edges[edge].place, self._locations.chain(item.location)))
+            place = product(self._instances.edges[edge].place, self._locations.chain(item.location))
+            matrix = self._locations.matrix(place)
             curve = read_curve(self._brep.curves_3d[item.curve - 1], 3)
             gap = largest_gap(curve, matrix, item.first, item.last, traces)
             return NewEdge(None, _covering(old.tolerance, gap))
@@ -171,11 +179,9 @@ class _Geometry:
                 if new.curve is not None:
                     points.append(new.curve.poles[[0 if orientation == "+" else -1]])
                 ends.setdefault(vertex, []).extend(points)
-        staying = {vertex for edge, ends_of in enumerate(self._instances.edge_ends) if edge not in edges or self._stays(edge)
-                   for vertex, _ in ends_of}
-        return {vertex: self._vertex(vertex, np.concatenate(ends[vertex]), np.concatenate(on_seams[vertex] or ends[vertex]),
-                                     least[vertex], vertex in staying)
-                for vertex in ends}
+        return {vertex: self._vertex(vertex, np.concatenate(points), np.concatenate(on_seams[vertex] or points),
+                                     least[vertex], vertex in self._staying_vertices)
+                for vertex, points in ends.items()}
 
     def _vertex(self, vertex: int, ends: Array, deciding: Array, least: float, stays: bool) -> NewVertex:
         instance = self._instances.vertices[vertex]

@@ -46,7 +46,8 @@ def surface_text(surface: SplineSurface) -> str:
     """The record of a B-spline surface; a periodic direction is rolled up again as OCCT has it."""
     points = surface.control_points
     knots = []
-    for axis, (flat, periodic) in enumerate(((surface.knots_u, surface.periodic_u), (surface.knots_v, surface.periodic_v))):
+    directions = (surface.knots_u, surface.periodic_u), (surface.knots_v, surface.periodic_v)
+    for axis, (flat, periodic) in enumerate(directions):
         if periodic:
             points = np.moveaxis(np.moveaxis(points, axis, 0)[:-DEGREE], 0, axis)
             flat = flat[DEGREE:-DEGREE]

@@ -95,7 +95,7 @@ class FaceSurface:
 
 @dataclass(frozen=True)
 class TShape:
-    """A shape without place or orientation: 'Ve', 'Ed', 'Wi', 'Fa', 'Sh', 'So', 'CS' or 'Co', and what it consists of."""
+    """A shape without place or orientation: 'Ve', 'Ed', 'Wi', 'Fa', 'Sh', 'So', 'CS' or 'Co', and its parts."""
 
     kind: str
     geometry: VertexPoint | EdgeCurves | FaceSurface | None
@@ -124,7 +124,7 @@ def parse(text: str) -> BrepText:
         if the text is of another version or does not follow the format
     """
     if _HEADER not in text:
-        raise RefusedError("This FreeCAD writes its shapes in a BREP version that is not known here: use FreeCAD 0.20 to 1.0.")
+        raise RefusedError("This FreeCAD writes BREP text of a version not known here: use FreeCAD 0.20 to 1.0.")
     marks = list(re.finditer(r"^(" + "|".join(_SECTIONS) + r") +(\d+)[ \t]*$", text, re.MULTILINE))
     if [mark[1] for mark in marks] != list(_SECTIONS):
         raise RefusedError("The shape's BREP text is damaged: its sections are not the expected ones.")
@@ -134,7 +134,8 @@ def parse(text: str) -> BrepText:
     try:
         shapes, root = _shapes(*section["TShapes"])
         return BrepText(_records(*section["Locations"], _location_end), _records(*section["Curve2ds"], curve_2d_end),
-                        _records(*section["Curves"], curve_3d_end), _records(*section["Surfaces"], surface_end), shapes, root)
+                        _records(*section["Curves"], curve_3d_end), _records(*section["Surfaces"], surface_end),
+                        shapes, root)
     except (IndexError, ValueError, KeyError) as error:
         raise RefusedError("The shape's BREP text is damaged: a record does not have the expected form.") from error
 
@@ -241,7 +242,8 @@ def surface_end(tokens: list[str], start: int) -> int:
         rational_u, rational_v, degree_u, degree_v = map(int, tokens[start + 1 : start + 5])
         return start + 5 + (degree_u + 1) * (degree_v + 1) * (3 + (rational_u or rational_v))
     if kind == "9":
-        rational_u, rational_v, _, _, _, _, poles_u, poles_v, knots_u, knots_v = map(int, tokens[start + 1 : start + 11])
+        rational_u, rational_v, *_ = map(int, tokens[start + 1 : start + 7])
+        poles_u, poles_v, knots_u, knots_v = map(int, tokens[start + 7 : start + 11])
         return start + 11 + poles_u * poles_v * (3 + (rational_u or rational_v)) + 2 * (knots_u + knots_v)
     if kind == "10":
         return surface_end(tokens, start + 5)
@@ -291,7 +293,8 @@ def _edge(tokens: list[str], at: int) -> tuple[EdgeCurves, int]:
     while tokens[at] != "0":
         kind = tokens[at]
         if kind == "1":
-            items.append(Curve3d(int(tokens[at + 1]), int(tokens[at + 2]), float(tokens[at + 3]), float(tokens[at + 4])))
+            items.append(Curve3d(int(tokens[at + 1]), int(tokens[at + 2]),
+                                 float(tokens[at + 3]), float(tokens[at + 4])))
             at += 5
         elif kind in "23":
             pcurves, continuity, at = _pcurves(tokens, at)
