@@ -3,6 +3,7 @@
 
 Every shape is rebuilt (a) where it is, (b) with a bump on one face and the faces around it adapting, once on the
 busiest face and once on a middle one, and (c) warped as a whole, smoothly. Each result is compared with its nominal.
+Bumps are rebuilt as closely as ``register`` does it, identity and warp as closely as the rebuild does by itself.
 """
 from __future__ import annotations
 
@@ -16,10 +17,11 @@ import numpy as np
 import Part
 
 from .. import ROOT
+from ..api.registering import SURFACE_TOLERANCE as LOCAL_TOLERANCE
 from ..brep import topology, workpiece
 from ..brep.displacement import FaceDisplacement
 from ..brep.field import local_displacements
-from ..brep.rebuild import rebuild
+from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
 from ..report.certificate import Certificate, Condition, boolean_checks, condition
@@ -131,7 +133,7 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
          displacements: Callable[[], Mapping[int, FaceDisplacement]]) -> Row:
     start = time.perf_counter()
     moved = displacements()
-    result = rebuild(part, moved)
+    result = rebuild(part, moved, LOCAL_TOLERANCE if mode.startswith("bump") else SURFACE_TOLERANCE)
     seconds = time.perf_counter() - start
     certificate = Certificate(nominal, condition(result, boolean_checks((result,), BOOLEAN_LIMIT)[0]))
     checks = nominal.boolean_check, certificate.after.boolean_check

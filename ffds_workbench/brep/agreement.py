@@ -30,6 +30,8 @@ _SPREAD = 0.25
 _MOST_CENTRES = 500
 _SLIDING = 0.03
 """How much a face's displacement within itself counts beside that along its normal; decides where normals are alike."""
+AT_VERTICES = 1e-7
+"""In the vertices faces meet to OCCT's own precision (mm): readers of STEP mend what is farther apart."""
 _EVEN = 1e-8
 """Sides of a seam, or directions at a pole, that differ by more than this (mm) tear the face."""
 
@@ -238,5 +240,8 @@ def spread(rim: Rim, face: int, size: float, tolerance: float, part: float = 0.0
     largest = np.linalg.norm(correction, axis=1).max()
     if largest <= tolerance:
         return None
-    return interpolate(rim.samples.points[side.rows], correction, np.full(len(side.rows), max(tolerance, part * largest)),
-                       max(_GENTLE * largest, _SPREAD * size), _MOST_CENTRES)
+    tolerances = np.full(len(side.rows), max(tolerance, part * largest))
+    if part == 0.0:
+        tolerances[rim.samples.at_vertices[side.rows]] = AT_VERTICES
+    return interpolate(rim.samples.points[side.rows], correction, tolerances, max(_GENTLE * largest, _SPREAD * size),
+                       _MOST_CENTRES)

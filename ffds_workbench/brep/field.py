@@ -21,7 +21,7 @@ from scipy.spatial import cKDTree
 
 from ..errors import InputError, RefusedError
 from ..registration.splines import Array, SplineSurface
-from .agreement import Rim, agree, spread
+from .agreement import AT_VERTICES, Rim, agree, spread
 from .cutoff import SPACING, Cutoff
 from .displacement import FaceDisplacement
 from .radial import RadialField, interpolate
@@ -196,9 +196,13 @@ def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[i
         points.append(inner)
         values.append(value if roughly is None else value + roughly(inner))
     tolerances = np.full(sum(map(len, points)), _FIDELITY_INSIDE * largest)
-    tolerances[:len(rim.dispute)] = np.maximum(_FIDELITY, _DISPUTE * rim.dispute)
+    edges = tolerances[:len(rim.dispute)]
+    edges[:] = np.maximum(_FIDELITY, _DISPUTE * rim.dispute)
+    disputed = bool(rim.dispute.max() > _FIDELITY)
+    if not disputed:
+        edges[rim.samples.at_vertices] = AT_VERTICES
     return interpolate(np.concatenate(points), np.concatenate(values), tolerances, support,
-                       most=min(1500, 600 + 150 * len(displacements)), smooth=bool(rim.dispute.max() > _FIDELITY))
+                       most=min(1500, 600 + 150 * len(displacements)), smooth=disputed)
 
 
 def _blend(rim: Rim, face: int, correction: RadialField | None, size: float) -> Cutoff | None:

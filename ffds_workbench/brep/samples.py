@@ -33,6 +33,11 @@ class EdgeSamples:
     points: Array
     lengths: Array
 
+    @property
+    def at_vertices(self) -> NDArray[np.bool_]:
+        """(n,) whether a sample is an end of its edge."""
+        return (self.fractions == 0.0) | (self.fractions == 1.0)
+
     def take(self, chosen: Array) -> EdgeSamples:
         """The samples at an index or mask array."""
         return EdgeSamples(self.edges[chosen], self.fractions[chosen], self.points[chosen], self.lengths[chosen])
