@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +57,7 @@ class AlignedScan:
 
 
 def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, mode: str = "global",
-               progress: Progress | None = None) -> AlignedScan:
+               progress: Progress | None = None, start: np.ndarray | None = None) -> AlignedScan:
     """Bring a scan onto a model by a rigid motion.
 
     Parameters
@@ -66,21 +66,23 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     scan : a `PointCloud`, or (n, 3) points in mm; a unit off by 1000, 100, 10 or 25.4 is recognised
     mode : "fine" from where the scan lies, within some 30°; "global" from anywhere
     progress : called with what is being done
+    start : (4, 4), a T_model_scan to start from instead of where the scan lies
 
     Raises
     ------
-    InputError : the model or the mode cannot be used
+    InputError : the model, the mode or the start cannot be used
     RefusedError : no pose explains the scan
     """
     if mode not in ALIGNMENTS:
         raise InputError(f"The alignment '{mode}' is unknown: use one of {', '.join(ALIGNMENTS)}.")
+    begin = _start_pose(start)
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         cloud = as_cloud(scan)
         part = workpiece.read(as_model(model).shape)
         target = target_of([part.geometry(index) for index in range(len(part.faces))])
     with watch.stage("align", "Aligning the scan"):
-        found = align(target, cloud.points, mode)
+        found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3], mode))
     if found.verdict == FAILED:
         raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "
                            f"part, or leave other objects out.")
@@ -105,6 +107,25 @@ def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | No
         write_ply(temporary[0], aligned.scan.points)
         if pose is not None:
             record.write(aligned.report, temporary[1])
+
+
+def _start_pose(start: np.ndarray | None) -> np.ndarray:
+    """The pose to start from, checked (InputError)."""
+    if start is None:
+        return np.eye(4)
+    pose = np.asarray(start, dtype=float)
+    if pose.shape != (4, 4) or not np.isfinite(pose).all() or not (
+            np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-6) and np.linalg.det(pose[:3, :3]) > 0):
+        raise InputError("The start of the alignment is no pose: give a (4, 4) matrix of a rotation and a shift in mm.")
+    return pose
+
+
+def _from(begin: np.ndarray, found: Alignment) -> Alignment:
+    """An alignment of a scan that was moved before, as one of the scan itself; the unit found scales the shift too."""
+    first = begin.copy()
+    first[:3, 3] *= found.scale
+    poses = tuple(replace(pose, T_model_scan=pose.T_model_scan @ first) for pose in found.poses)
+    return replace(found, T_model_scan=found.T_model_scan @ first, poses=poses)
 
 
 def _record(found: Alignment) -> dict[str, Any]:

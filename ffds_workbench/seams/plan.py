@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from .programs.rapid import rapid_text
 from .programs.urscript import urscript_text
 from .settings import SeamSettings
 from .table import csv_text
-from .trust import read_trust
+from .trust import read_trust, trust_of
 from .weldment import Weldment
 
 FORMATS = (".csv", ".src", ".mod", ".script", ".fcstd")
@@ -64,8 +64,9 @@ class SeamPlan:
 
 
 def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (), auto: float | None = None,
-               nominal: Model | Part.Shape | object | None = None, chain: bool = False, bands: str | Path | None = None,
-               settings: SeamSettings | None = None, limits: SeamLimits | None = None) -> SeamPlan:
+               nominal: Model | Part.Shape | object | None = None, chain: bool = False,
+               bands: str | Path | Mapping[str, Any] | None = None, settings: SeamSettings | None = None,
+               limits: SeamLimits | None = None) -> SeamPlan:
     """Find and measure the seams of an as-built model.
 
     With a nominal model the joints are sought there, where the parts still lie as they were designed.
@@ -73,7 +74,7 @@ def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (),
     Parameters
     ----------
     as_built, nominal : models, shapes or document objects
-    bands : the JSON report of the registration, for what was observed and how sure it is
+    bands : the registration's report or its JSON file, for what was observed and how sure it is
     edges : names, "EdgeN"; with ``auto`` only joints along these
     auto : find the joints of parts that lie within this distance (mm) of each other
     chain : add the edges that go on from the named ones along tangency
@@ -88,7 +89,7 @@ def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (),
     if auto is not None and chain:
         raise InputError("Joints found by themselves are joined along tangency already: leave chain out.")
     settings = settings or SeamSettings()
-    trust = None if bands is None else read_trust(Path(bands))
+    trust = None if bands is None else trust_of(bands) if isinstance(bands, Mapping) else read_trust(Path(bands))
     built = Weldment.of(as_built)
     before = None if nominal is None else Weldment.of(nominal)
     if before is not None:

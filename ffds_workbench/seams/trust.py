@@ -65,12 +65,17 @@ def read_trust(path: Path) -> Trust:
         raise InputError(f"The report {path} cannot be read: {error.strerror}.") from error
     except ValueError as error:
         raise InputError(f"The report {path} is not JSON: name the file that register wrote with --report.") from error
-    if not isinstance(report, dict) or not isinstance(report.get("faces"), list):
-        raise InputError(f"The report {path} has no faces: name the file that register wrote with --report.")
+    return trust_of(report, f"report {path}")
+
+
+def trust_of(report: object, name: str = "registration's report") -> Trust:
+    """The ``faces`` and ``edges`` of a registration's report, called ``name`` where it is none (InputError)."""
+    if not isinstance(report, Mapping) or not isinstance(report.get("faces"), list):
+        raise InputError(f"The {name} has no faces: name the file that register wrote with --report.")
     try:
         return Trust({str(item["name"]): _entry(item) for item in [*report["faces"], *report.get("edges", [])]})
     except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"The report {path} has a face or edge without a sound name, flag and band.") from error
+        raise InputError(f"The {name} has a face or edge without a sound name, flag and band.") from error
 
 
 def _entry(item: Mapping[str, object]) -> _Entry:
