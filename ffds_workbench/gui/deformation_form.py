@@ -48,6 +48,8 @@ class DeformationForm(QtWidgets.QWidget):
         self._progress = named(QtWidgets.QProgressBar(), "FfdsProgressBar")
         self._progress.setRange(0, 0)
         self._progress.setVisible(False)
+        self._doing = wrapped("FfdsDoing")
+        self._doing.setVisible(False)
         self._lay_out()
         self._connect()
         self._enable()
@@ -83,6 +85,7 @@ class DeformationForm(QtWidgets.QWidget):
         column.addWidget(self._figures)
         column.addWidget(self._legend)
         column.addWidget(self._message)
+        column.addWidget(self._doing)
         column.addWidget(self._progress)
 
     def _connect(self) -> None:
@@ -186,6 +189,7 @@ class DeformationForm(QtWidgets.QWidget):
         """Lock the settings while the part is being computed."""
         self.busy = busy
         self._progress.setVisible(busy)
+        self._doing.setVisible(busy)
         for widget in self.findChildren(QtWidgets.QWidget):
             if isinstance(widget, (QtWidgets.QAbstractSpinBox, QtWidgets.QComboBox, QtWidgets.QAbstractButton,
                                    QtWidgets.QSlider, QtWidgets.QLineEdit)):
@@ -195,8 +199,7 @@ class DeformationForm(QtWidgets.QWidget):
 
     def show_progress(self, text: str) -> None:
         """Say what is being done."""
-        self._progress.setFormat(text)
-        self.say(f"{text} …")
+        self._doing.setText(f"{text} …")
 
 
 def _move(slider: Any, value: int) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import FfdsError, InputError
 from ..objects.as_built import settings_of
 from ..objects.job import Job, Settings, make_job
+from ..objects.sources import Source
 from . import running
 from .colours import good_limit, packed_colours
 from .deformation_form import DeformationForm
@@ -40,7 +41,7 @@ class DeformationPanel:
         self._faces: tuple[str, ...] = ()
         self._hint = ""
         self._preview: Preview | None = None
-        self._prepared: tuple | None = None
+        self._read: tuple[tuple[Any, Any], Source, Any] | None = None
         self._worker: running.Worker | None = None
         self.form = DeformationForm(scans_of(document), item is not None)
         self._take(item, chosen(), whole)
@@ -99,6 +100,7 @@ class DeformationPanel:
         self._show_coarse()
 
     def _job(self) -> Job:
+        """The registration that is set now (InputError where something is missing)."""
         scan = self.form.scan(self._document)
         if self._source is None:
             raise InputError("Pick faces of the part in the 3D view." if not self.form.whole else
@@ -107,26 +109,41 @@ class DeformationPanel:
             raise InputError("Pick the faces to deform in the 3D view; hold Ctrl for more than one.")
         if scan is None:
             raise InputError("The document holds no scan: import one first.")
-        return make_job(self._source, scan, self.form.settings(self._faces))
+        settings = self.form.settings(self._faces)
+        if self._read is None or self._read[0] != (self._source, scan):
+            job = make_job(self._source, scan, settings)
+            self._read = ((self._source, scan), job.source, job.points)
+            self._preview = Preview(job.source.model.shape, job.points)
+        return Job(self._read[1], self._read[2], settings)
 
     def _show_coarse(self) -> None:
         """The preview of what is set now, on a part of the points; exact when it rests."""
-        if self._watching and not self.form.busy:
-            self._show(coarse=True)
-            self._rest.start(_REST_MS)
-
-    def _show_exact(self) -> None:
-        if self._watching and not self.form.busy:
-            self._show(coarse=False)
-
-    def _show(self, coarse: bool) -> None:
+        if not self._watching or self.form.busy:
+            return
+        self._cancel_work()
         try:
             job = self._job()
-            patches = self._patches(job, coarse)
+            self._draw(job, self._preview.patches(job.settings, coarse=True))
+            self._rest.start(_REST_MS)
         except FfdsError as refusal:
-            self._overlay.show([])
-            self.form.show_figures(None, self._hint or str(refusal))
-            return
+            self._draw_nothing(refusal)
+
+    def _show_exact(self) -> None:
+        """The preview on all points, computed in the background."""
+        if self._watching and not self.form.busy:
+            job, preview = self._job(), self._preview
+            self._worker = running.Worker(lambda progress: preview.patches(job.settings, coarse=False),
+                                          lambda patches: self._draw(job, patches), self._draw_nothing, _silent)
+
+    def _draw_nothing(self, failure: BaseException) -> None:
+        if not isinstance(failure, FfdsError):
+            raise failure
+        self._overlay.show([])
+        self._overlay.cover(None)
+        self.form.show_figures(None, self._hint or str(failure))
+
+    def _draw(self, job: Job, patches: list[Patch]) -> None:
+        self._overlay.cover(self.form.scan(self._document) if patches else None)
         if not patches:
             self._overlay.show([])
             self.form.show_figures(None, "OK registers all faces together: that takes some seconds.")
@@ -136,24 +153,18 @@ class DeformationPanel:
         self._overlay.show([*nodes, *lattice_nodes([patch.lattice for patch in patches])], job.source.T_document_part)
         self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
 
-    def _patches(self, job: Job, coarse: bool) -> list[Patch]:
-        """The previewed faces; none for the whole part."""
-        scan = self.form.scan(self._document)
-        prepared = (job.source.item, job.source.T_document_part.tobytes(), scan, len(job.points))
-        if prepared != self._prepared:
-            self._preview, self._prepared = Preview(job.source.model.shape, job.points), prepared
-        return [self._preview.patch(name, job.settings, coarse) for name in job.settings.faces or ()]
-
     def accept(self) -> bool:
         """OK: compute in the background, then write the document in one undo step and close."""
         if self.form.busy:
             return False
+        self._read = None
         try:
             job = self._job()
         except FfdsError as refusal:
             running.tell(str(refusal))
             return False
         self._rest.stop()
+        self._cancel_work()
         self.form.set_busy(True)
         self._worker = running.Worker(job.run, lambda _: self._finish(job), self._failed, self.form.show_progress)
         return False
@@ -180,6 +191,11 @@ class DeformationPanel:
         else:
             raise failure
 
+    def _cancel_work(self) -> None:
+        if self._worker is not None:
+            self._worker.cancel()
+            self._worker = None
+
     def reject(self) -> bool:
         """Cancel: drop running work and leave the document as it is."""
         self._close()
@@ -192,8 +208,7 @@ class DeformationPanel:
         try:
             Gui.Selection.removeObserver(self)
             self._rest.stop()
-            if self._worker is not None:
-                self._worker.cancel()
+            self._cancel_work()
         finally:
             self._overlay.remove()
             Gui.Selection.clearSelection()
@@ -212,3 +227,7 @@ def _arguments(settings: Settings) -> str:
               for name in ("freeze", "method", "lattice", "source_points", "isometry")
               if getattr(settings, name) != getattr(plain, name)]
     return ", ".join(shown)
+
+
+def _silent(text: str) -> None:
+    """The preview does not say what it is doing."""

@@ -39,14 +39,14 @@ def open_panel(part: Any, scan: Any) -> None:
             return [(name, api.deviation(model, points, progress)) for name, model in models]
 
         found = running.in_background("Measuring the deviation", measure)
-        Gui.Control.showDialog(DeviationPanel(part.Document, found))
+        Gui.Control.showDialog(DeviationPanel(scan, found))
 
 
 class DeviationPanel:
     """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part."""
 
-    def __init__(self, document: Any, found: list[tuple[str, api.Deviation]]) -> None:
-        self._found = dict(found)
+    def __init__(self, scan: Any, found: list[tuple[str, api.Deviation]]) -> None:
+        self._scan, self._found = scan, dict(found)
         self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
         self.form = QtWidgets.QWidget()
         self.form.setWindowTitle("Deviation")
@@ -70,8 +70,8 @@ class DeviationPanel:
             widget.currentIndexChanged.connect(self._show)
         for widget in (self._limit, self._tolerance):
             widget.valueChanged.connect(self._show)
-        self._view = Gui.getDocument(document.Name).ActiveView
-        self._overlay = Overlay(document.Name)
+        self._view = Gui.getDocument(scan.Document.Name).ActiveView
+        self._overlay = Overlay(scan.Document.Name)
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
         self._show()
 
@@ -87,6 +87,7 @@ class DeviationPanel:
             nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance))
                      for points, triangles, means in self._coloured_faces(item)]
         self._overlay.show(nodes)
+        self._overlay.cover(self._scan)
         self._legend.show_deviations(values, limit, tolerance)
         self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
         self._cursor.setText("Point at the part to read the deviation there.")

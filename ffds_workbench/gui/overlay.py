@@ -23,6 +23,7 @@ class Overlay:
 
     def __init__(self, document_name: str) -> None:
         self._view = Gui.getDocument(document_name).ActiveView
+        self._covered: tuple[Any, int] | None = None
         self._root = coin.SoSeparator()
         style = coin.SoPickStyle()
         style.style = coin.SoPickStyle.UNPICKABLE
@@ -41,9 +42,24 @@ class Overlay:
         for node in nodes:
             self._content.addChild(node)
 
+    def cover(self, item: Any) -> None:
+        """Leave a document object undrawn while it would hide the overlay, or none; its properties stay untouched."""
+        self._uncover()
+        if item is not None and item.ViewObject is not None:
+            switch = item.ViewObject.SwitchNode
+            self._covered = (switch, switch.whichChild.getValue())
+            switch.whichChild = coin.SO_SWITCH_NONE
+
+    def _uncover(self) -> None:
+        if self._covered is not None:
+            switch, child = self._covered
+            switch.whichChild = child
+            self._covered = None
+
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
         try:
+            self._uncover()
             self._view.getSceneGraph().removeChild(self._root)
         except (ReferenceError, RuntimeError):
             return
@@ -63,15 +79,12 @@ def points_node(points: Array, colours: NDArray[np.uint32], size: float = 3.0) -
 
 
 def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32]) -> Any:
-    """A coloured surface: (n, 3) in mm, (m, 3) indices and (n,) packed colours; drawn in front of what it covers."""
+    """A surface in the colours of the legend, unshaded: (n, 3) in mm, (m, 3) indices, (n,) packed colours."""
     node = coin.SoSeparator()
     offset = coin.SoPolygonOffset()
     offset.factor, offset.units = -2.0, -2.0
     node.addChild(offset)
-    hints = coin.SoShapeHints()
-    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
-    hints.creaseAngle = 0.6
-    node.addChild(hints)
+    node.addChild(_flat_light())
     node.addChild(_colours(colours, coin.SoMaterialBinding.PER_VERTEX_INDEXED))
     node.addChild(_coordinates(points))
     faces = coin.SoIndexedFaceSet()
@@ -90,7 +103,7 @@ def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:
 
 
 def _lattice_node(grids: Sequence[Array], colour: tuple[float, float, float], width: float, size: float) -> Any:
-    node = coin.SoSeparator()
+    node = coin.SoAnnotation()  # in front of everything: most of a lattice lies just below its face
     node.addChild(_flat_light())
     base = coin.SoBaseColor()
     base.rgb.setValue(*colour)

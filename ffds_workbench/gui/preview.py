@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import Part
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter
 
 from ..brep import workpiece
 from ..errors import RefusedError
@@ -29,9 +30,10 @@ Array = NDArray[np.float64]
 
 COARSE = 6000
 """Scan points per face that are looked at while a control is being moved."""
+_COARSE_STEPS = RobustSettings(sample=4000, stiff=((1e4, 5.0), (1e3, 2.0)), soft=((30, 1.2),), final=((1, 0.6),))
 _PAPER_LATTICE = (10, 10)
-_FAR = 3.0
-"""Points farther from the deformed face than this (mm) and than nearly all others are not taken for its own."""
+_FAR, _FAR_MEDIANS = 1.0, 8.0
+"""Points farther from the deformed face than this (mm), and than so many times the median, are not its own."""
 
 
 @dataclass(frozen=True)
@@ -70,16 +72,19 @@ class Preview:
         self._points = points
         self._faces: dict[str, _Face] = {}
 
-    def patch(self, name: str, settings: Settings, coarse: bool) -> Patch:
-        """Register a face with these settings.
+    def patches(self, settings: Settings, coarse: bool) -> list[Patch]:
+        """Register the faces that the settings name: on all points, or coarsely and fast. Any thread may call it.
 
         Raises
         ------
         InputError, RefusedError : as the registration of the face does
         """
+        return [self._face(name).patch(settings, coarse) for name in settings.faces or ()]
+
+    def _face(self, name: str) -> _Face:
         if name not in self._faces:
             self._faces[name] = _Face(self._part.geometry(self._part.index(name)), self._points)
-        return self._faces[name].patch(settings, coarse)
+        return self._faces[name]
 
 
 class _Face:
@@ -95,18 +100,16 @@ class _Face:
         self.grid = surface_grid(self.raster)
 
     def patch(self, settings: Settings, coarse: bool) -> Patch:
-        """See `Preview.patch`."""
+        """See `Preview.patches`."""
         skip = max(1, -(-len(self.points) // COARSE)) if coarse else 1
         points = self.points[::skip]
         places = self.places.part(slice(None, None, skip))
-        found = _register(self.geometry, points, settings)
+        found = _register(self.geometry, points, settings, coarse)
         before, after = places.height, _after(self.raster, places, found.displacement)
-        own = np.abs(after) < max(_FAR, 5.0 * float(np.median(np.abs(after))))
+        own = np.abs(after) < max(_FAR, _FAR_MEDIANS * float(np.median(np.abs(after))))
         before, after, cell = before[own], after[own], places.in_cell[0][own]
         displaced = self.raster.position + found.displacement.on_grid(self.raster.u, self.raster.v).reshape(-1, 3)
-        count = np.bincount(cell, minlength=len(displaced))
-        total = np.bincount(cell, weights=after, minlength=len(displaced))
-        values = np.divide(total, count, out=np.full(len(displaced), np.nan), where=count > 0)
+        values = _means(self.raster, cell, after)
         lattice = draw_lattice(self.geometry.surface, found.displacement)
         return Patch(lattice, displaced, self.grid, values, before, after, found.coverage)
 
@@ -123,15 +126,20 @@ def figures(patches: Sequence[Patch]) -> tuple[float, float, float, float, float
 def cell_values(raster: Raster, points: Array, deviations: Array) -> Array:
     """Mean deviation of each cell's points, NaN without any; points (k, 3) in mm that lie on the face."""
     found = surface_coordinates(raster, points, np.inf)
-    cell = found.in_cell[0]
-    count = np.bincount(cell, minlength=len(raster.position))
-    total = np.bincount(cell, weights=deviations[found.index], minlength=len(raster.position))
-    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)
+    return _means(raster, found.in_cell[0], deviations[found.index])
 
 
-def _register(geometry: FaceGeometry, points: Array, settings: Settings) -> FaceRegistration:
+def _means(raster: Raster, cell: NDArray[np.intp], values: Array) -> Array:
+    """Mean of the values of each cell and the cells around it, NaN where there are none."""
+    count, total = (uniform_filter(np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float),
+                                   3, mode="constant").ravel() for weights in (None, values))
+    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0.01)
+
+
+def _register(geometry: FaceGeometry, points: Array, settings: Settings, coarse: bool) -> FaceRegistration:
     if settings.method == "robust":
-        return register_robust(geometry, points, None if settings.lattice == "auto" else settings.lattice)
+        lattice = None if settings.lattice == "auto" else settings.lattice
+        return register_robust(geometry, points, lattice, _COARSE_STEPS if coarse else RobustSettings())
     published = register_ffds if settings.method == "ffds" else register_ffd
     lattice = _PAPER_LATTICE if settings.lattice == "auto" else settings.lattice
     return published(geometry, points, lattice, settings.source_points)

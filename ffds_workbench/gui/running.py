@@ -49,12 +49,20 @@ def call(document: Any, title: str, line: str) -> None:
     """Run a recordable line of Python that calls `ACTIONS`, as one undo step; a failure leaves nothing behind."""
     document.openTransaction(title)
     try:
-        Gui.addModule(ACTIONS)
-        Gui.doCommand(f"{ACTIONS}.{line}")
+        record(line)
     except BaseException:
         document.abortTransaction()
         raise
     document.commitTransaction()
+
+
+def record(line: str) -> None:
+    """Run a line of Python that calls `ACTIONS`, and record it with its import.
+
+    ``Gui.addModule`` would record the import once per session, and macros that start later would lack it.
+    """
+    Gui.doCommand(f"import {ACTIONS}")
+    Gui.doCommand(f"{ACTIONS}.{line}")
 
 
 class Worker(QtCore.QObject):
@@ -121,7 +129,7 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
     outcome: dict[str, Any] = {}
 
     def ended(kind: str, value: Any) -> None:
-        outcome[kind] = value
+        outcome.setdefault(kind, value)
         loop.quit()
 
     worker = Worker(work, lambda value: ended("value", value), lambda failure: ended("failure", failure),
@@ -134,6 +142,6 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
         worker.cancel()
         dialog.close()
         dialog.deleteLater()
-    if "failure" in outcome:
-        raise outcome["failure"]
-    return outcome["value"]
+    if "value" in outcome:
+        return outcome["value"]
+    raise outcome["failure"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from ..qt import QtWidgets
-from ..running import ACTIONS, name_of
+from ..running import name_of, record
 from ..selection import chosen
 from .command import Command, one_part
 
@@ -34,5 +34,4 @@ class ExportAsBuilt(Command):
         if not path:
             return
         suffix = "" if Path(path).suffix else {"S": ".step", "B": ".brep", "F": ".FCStd"}[(kind or "S")[0]]
-        Gui.addModule(ACTIONS)
-        Gui.doCommand(f"{ACTIONS}.export_as_built({name_of(part)}, {path + suffix!r})")
+        record(f"export_as_built({name_of(part)}, {path + suffix!r})")

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the GUI tests share: waiting, the Report view, mouse and keyboard, and documents that leave nothing behind."""
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import FreeCAD
+import FreeCADGui as Gui
+import pytest
+from PySide2 import QtCore, QtTest, QtWidgets
+
+from ffds_workbench.api import registering
+
+SHOTS = os.environ.get("FFDS_SCREENSHOTS")
+
+
+class Hands:
+    """Mouse, keyboard and eyes."""
+
+    def wait(self, milliseconds: int = 100) -> None:
+        """Let FreeCAD go on."""
+        loop = QtCore.QEventLoop()
+        QtCore.QTimer.singleShot(milliseconds, loop.quit)
+        loop.exec_()
+
+    def until(self, done: Callable[[], bool], seconds: float = 60.0) -> None:
+        """Wait for something to happen."""
+        clock = QtCore.QElapsedTimer()
+        clock.start()
+        while not done():
+            assert clock.elapsed() < 1000 * seconds, "it did not happen in time"
+            self.wait(50)
+
+    def find(self, name: str, kind: type = QtWidgets.QWidget) -> QtWidgets.QWidget:
+        """A visible widget by its object name."""
+        found = [item for item in QtWidgets.QApplication.allWidgets()
+                 if item.objectName() == name and isinstance(item, kind) and item.isVisible()]
+        assert found, f"no visible widget {name}"
+        return found[0]
+
+    def click(self, widget: QtWidgets.QWidget, place: QtCore.QPoint | None = None) -> None:
+        """Left click, at its middle unless told."""
+        QtTest.QTest.mouseClick(widget, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier,
+                                place or widget.rect().center(), 10)
+        self.wait()
+
+    def check(self, name: str) -> None:
+        """Click the box of a check box."""
+        box = self.find(name)
+        self.click(box, QtCore.QPoint(8, box.height() // 2))
+
+    def button(self, role: QtWidgets.QDialogButtonBox.StandardButton) -> QtWidgets.QPushButton:
+        """A button of the open task panel."""
+        boxes = [item for item in Gui.getMainWindow().findChildren(QtWidgets.QDialogButtonBox) if item.isVisible()]
+        return boxes[0].button(role)
+
+    def ok(self) -> None:
+        """Press OK and wait until the panel has closed."""
+        self.click(self.button(QtWidgets.QDialogButtonBox.Ok))
+        self.until(lambda: not Gui.Control.activeDialog())
+        self.wait(300)
+
+    def command(self, name: type) -> None:
+        """Trigger the command's entry in the workbench's menu, once it is no longer grey."""
+        text = name.MENU
+        actions = [action for action in Gui.getMainWindow().findChildren(QtWidgets.QAction) if action.text() == text]
+        assert actions, f"there is no '{text}'"
+        self.until(actions[0].isEnabled, 5)
+        actions[0].trigger()
+        self.wait(200)
+
+    def pick(self, point: tuple[float, float, float], modifier: int = QtCore.Qt.NoModifier) -> None:
+        """Click in the 3D view where a point of the document is seen."""
+        view = Gui.ActiveDocument.ActiveView
+        viewport = view.graphicsView().viewport()
+        x, y = view.getPointOnScreen(FreeCAD.Vector(*point))
+        place = QtCore.QPoint(x, viewport.height() - 1 - y)
+        QtTest.QTest.mouseMove(viewport, place)
+        self.wait(200)
+        QtTest.QTest.mouseClick(viewport, QtCore.Qt.LeftButton, modifier, place, 10)
+        self.wait(400)
+
+    def answer(self, press: Callable[[QtWidgets.QWidget], None]) -> list[str]:
+        """Answer the next modal dialog; returns a list that will hold its text."""
+        said: list[str] = []
+
+        def look() -> None:
+            dialog = QtWidgets.QApplication.activeModalWidget()
+            if dialog is None:
+                QtCore.QTimer.singleShot(100, look)
+                return
+            said.append(dialog.text() if hasattr(dialog, "text") else dialog.windowTitle())
+            press(dialog)
+
+        QtCore.QTimer.singleShot(200, look)
+        return said
+
+    def report(self) -> str:
+        """What the Report view says."""
+        self.wait(250)
+        views = Gui.getMainWindow().findChildren(QtWidgets.QTextEdit, "Report view")
+        return "\n".join(view.toPlainText() for view in views)
+
+    def screenshot(self, name: str) -> None:
+        """A picture of the whole screen into the folder $FFDS_SCREENSHOTS, if there is one."""
+        if SHOTS:
+            for dock in Gui.getMainWindow().findChildren(QtWidgets.QDockWidget):
+                if dock.objectName() in ("Report view", "Python console"):
+                    dock.hide()
+            self.wait(500)
+            subprocess.run(["import", "-window", "root", str(Path(SHOTS) / f"{name}.png")], check=True)
+
+    def nodes(self) -> int:
+        """Top nodes of the active view's scene graph."""
+        return Gui.ActiveDocument.ActiveView.getSceneGraph().getNumChildren()
+
+
+@pytest.fixture
+def hands(monkeypatch):
+    """Hands in an open workbench; afterwards all documents are closed and the Report view must hold no error."""
+    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    used = Hands()
+    Gui.getMainWindow().showMaximized()
+    Gui.activateWorkbench("FFDSWorkbench")
+    before = used.report()
+    yield used
+    if Gui.Control.activeDialog():
+        Gui.Control.closeDialog()
+        used.wait()
+    for name in list(FreeCAD.listDocuments()):
+        FreeCAD.closeDocument(name)
+    new = used.report()[len(before):]
+    assert not [line for line in new.splitlines() if "rror" in line or "Traceback" in line or "xception" in line], new
+
+
+@pytest.fixture
+def plate_document(hands, plate):
+    """A document with the plate and its scan, imported as a user does but for the file dialog; seen from above."""
+    import Part
+
+    from ffds_workbench.objects import actions
+
+    document = FreeCAD.newDocument("Plate")
+    part = document.addObject("Part::Feature", "Plate")
+    part.Shape = Part.read(str(plate[0]))
+    actions.import_scan(document, str(plate[1]))
+    document.recompute()
+    document.clearUndos()
+    view = Gui.ActiveDocument.ActiveView
+    view.viewIsometric()
+    view.fitAll()
+    hands.wait(300)
+    return document

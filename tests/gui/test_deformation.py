@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From the selection to the as-built part with mouse and keyboard, in the running FreeCAD.
+
+The scan of the plate is an analytic bump of 1 mm with noise of 0.05 mm: the fitted top is known to no less.
+"""
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import FreeCAD
+import FreeCADGui as Gui
+import Part
+import pytest
+from PySide2 import QtCore, QtTest, QtWidgets
+
+from ffds_workbench.gui.commands import COMMANDS
+from ffds_workbench.gui.commands.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.import_scan import ImportScan
+from ffds_workbench.gui.commands.load_example import LoadExample
+from ffds_workbench.gui.commands.show_deviation import ShowDeviation
+from ffds_workbench.gui.commands.show_lattice import ShowLattice
+from ffds_workbench.gui.commands.simulate_scan import SimulateScan
+
+TOLERANCE = 0.05
+
+
+def top(shape: Part.Shape) -> float:
+    """Height of the plate's upper side at its middle."""
+    return 20 - shape.distToShape(Part.Vertex(30, 20, 20))[0]
+
+
+def names(document) -> list[str]:
+    return [item.Name for item in document.Objects]
+
+
+def deform(hands, document) -> object:
+    """Pick the upper face with the mouse, open the panel, press OK."""
+    document.Scan.Visibility = False  # the points would catch the mouse
+    hands.wait(200)
+    hands.pick((20, 12, 5.0))
+    document.Scan.Visibility = True
+    hands.command(DeformFaces)
+    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 10)
+    hands.ok()
+    return document.AsBuilt
+
+
+def test_a_picked_face_takes_the_scans_shape_and_undo_and_redo_are_exact(hands, plate_document):
+    nodes, before = hands.nodes(), names(plate_document)
+    item = deform(hands, plate_document)
+    assert item.Faces[0][1] == ("Face6",) and item.isValid()
+    assert top(item.Shape) == pytest.approx(6, abs=TOLERANCE) and item.MeanAfter.Value < TOLERANCE
+    assert hands.nodes() == nodes + 1, "the as-built part is the only new node"
+    assert not plate_document.Plate.Visibility
+    assert plate_document.UndoNames == ["Deform to scan"]
+    plate_document.undo()
+    assert names(plate_document) == before and plate_document.Plate.Visibility and hands.nodes() == nodes
+    plate_document.redo()
+    assert top(plate_document.AsBuilt.Shape) == pytest.approx(6, abs=TOLERANCE)
+
+
+def test_the_preview_follows_the_lattice_and_cancel_leaves_nothing(hands, plate_document):
+    nodes, before = hands.nodes(), names(plate_document)
+    hands.command(DeformFaces)
+    assert "ick" in hands.find("FfdsMessageLabel").text()
+    Gui.Selection.addSelection(plate_document.Scan)
+    Gui.Selection.addSelection(plate_document.Plate, "Face6")
+    hands.until(lambda: "Face6" in hands.find("FfdsPart").text(), 5)
+    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 10)
+    hands.check("FfdsAutomatic")
+    texts = []
+    for count in (4, 9):
+        box = hands.find("FfdsControlPointsU")
+        box.setFocus()
+        box.selectAll()
+        QtTest.QTest.keyClicks(box, str(count))
+        QtTest.QTest.keyClick(box, QtCore.Qt.Key_Tab)
+        hands.wait(900)
+        texts.append(hands.find("FfdsFigures").text())
+    assert texts[0] != texts[1] and hands.nodes() == nodes + 1
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)
+    assert hands.nodes() == nodes and names(plate_document) == before and not plate_document.UndoNames
+    assert not plate_document.HasPendingTransaction
+
+
+def test_cancel_in_mid_work_leaves_nothing(hands, plate_document):
+    nodes, before = hands.nodes(), names(plate_document)
+    Gui.Selection.addSelection(plate_document.Plate)
+    hands.command(DeformWorkpiece)
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Ok))
+    assert hands.find("FfdsProgressBar") and Gui.Control.activeDialog()
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)
+    hands.wait(1500)
+    assert hands.nodes() == nodes and names(plate_document) == before and not plate_document.UndoNames
+
+
+def test_a_double_click_changes_the_settings(hands, plate_document):
+    item = deform(hands, plate_document)
+    item.ViewObject.Proxy.doubleClicked(item.ViewObject)
+    hands.wait(500)
+    hands.check("FfdsAutomatic")
+    hands.ok()
+    assert (item.ControlPointsU, item.ControlPointsV) == (10, 10) and item.isValid()
+    assert plate_document.UndoNames[0] == "Deform to scan" and len(plate_document.UndoNames) == 2
+    plate_document.undo()
+    assert item.ControlPointsU == 0 and top(item.Shape) == pytest.approx(6, abs=TOLERANCE)
+
+
+def test_colours_lattice_and_file(hands, plate_document, tmp_path):
+    colours = [(0.1 * k, 0.5, 0.3, 0.0) for k in range(6)]
+    plate_document.Plate.ViewObject.DiffuseColor = colours
+    item = deform(hands, plate_document)
+    shown = item.ViewObject.DiffuseColor
+    assert [round(colour[0], 2) for colour in shown] == [round(colour[0], 2) for colour in colours]
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(item)
+    hands.command(ShowLattice)
+    assert item.ViewObject.ShowLattice
+    plate_document.saveCopy(str(tmp_path / "plate.FCStd"))
+    again = FreeCAD.openDocument(str(tmp_path / "plate.FCStd"))
+    hands.wait(300)
+    copy = again.AsBuilt
+    assert copy.ViewObject.ShowLattice and copy.isValid() and copy.ViewObject.Proxy is not None
+    assert top(copy.Shape) == pytest.approx(6, abs=TOLERANCE)
+    copy.ControlPointsU = copy.ControlPointsV = 8
+    again.recompute()
+    assert copy.isValid() and len(copy.LatticeAsBuilt) == 64
+    assert [round(colour[0], 2) for colour in copy.ViewObject.DiffuseColor] == [round(c[0], 2) for c in colours]
+
+
+def test_the_deviation_map_comes_and_goes(hands, plate_document):
+    item = deform(hands, plate_document)
+    nodes, before = hands.nodes(), names(plate_document)
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(item)
+    hands.command(ShowDeviation)
+    hands.until(Gui.Control.activeDialog, 30)
+    after = hands.find("FfdsFigures").text()
+    for name in ("FfdsState", "FfdsOn"):
+        box = hands.find(name)
+        box.setFocus()
+        QtTest.QTest.keyClick(box, QtCore.Qt.Key_Down)
+        hands.wait(300)
+    assert hands.find("FfdsFigures").text() != after and hands.nodes() == nodes + 1
+    hands.pick((30, 20, 6.0))
+    assert "mm" in hands.find("FfdsCursor").text()
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
+    hands.wait(300)
+    assert hands.nodes() == nodes and names(plate_document) == before
+
+
+def test_what_cannot_be_used_is_greyed_or_gets_a_sentence(hands, plate_document):
+    mesh = plate_document.addObject("Mesh::Feature", "Mesh")
+    Gui.Selection.addSelection(mesh)
+    assert not any(command().IsActive() for command in (DeformFaces, ShowDeviation, ShowLattice, SimulateScan))
+    Gui.Selection.clearSelection()
+    plate_document.Scan.Placement.Base.x = 10000
+    Gui.Selection.addSelection(plate_document.Plate, "Face6")
+    hands.command(DeformFaces)
+    hands.wait(300)
+    assert hands.find("FfdsMessageLabel").text().endswith(".")
+    said = hands.answer(lambda box: box.button(QtWidgets.QMessageBox.Ok).click())
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Ok))
+    hands.until(lambda: bool(said), 10)
+    assert said[0].endswith(".") and "Traceback" not in said[0]
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)
+    assert names(plate_document) == ["Plate", "Scan", "Mesh"]
+
+
+def test_a_scan_in_metres_is_asked_about(hands, plate_document, tmp_path, monkeypatch):
+    import numpy as np
+
+    np.savetxt(tmp_path / "metres.xyz", np.random.default_rng(0).uniform(0, 0.06, (500, 3)))
+    monkeypatch.setattr(QtWidgets.QFileDialog, "getOpenFileNames",
+                        lambda *_: ([str(tmp_path / "metres.xyz")], ""))
+    hands.answer(lambda dialog: dialog.accept())
+    hands.command(ImportScan)
+    hands.until(lambda: len(plate_document.Objects) == 3, 10)
+    assert plate_document.Objects[-1].Points.BoundBox.XMax == pytest.approx(60, rel=0.05)
+    assert plate_document.UndoNames == ["Import scan"]
+
+
+def test_a_recorded_session_replays_without_a_gui(hands, tmp_path):
+    lines = []
+    console = Gui.getMainWindow().findChild(QtWidgets.QPlainTextEdit, "Python console")
+    before = len(console.toPlainText())
+    hands.command(LoadExample)
+    document = FreeCAD.ActiveDocument
+    Gui.Selection.addSelection(document.Bracket, "Face9")
+    hands.command(DeformFaces)
+    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.screenshot("panel")
+    hands.ok()
+    volume = document.AsBuilt.Shape.Volume
+    hands.screenshot("as_built")
+    for line in console.toPlainText()[before:].splitlines():
+        text = line.removeprefix(">>> ").strip()
+        if "ffds_workbench" in text or "newDocument" in text:
+            lines.append(text)
+    macro = tmp_path / "session.py"
+    macro.write_text("\n".join(["import FreeCAD", *lines, "print(repr(FreeCAD.ActiveDocument.AsBuilt.Shape.Volume))"]))
+    code = f"exec(open({str(macro)!r}).read())"
+    done = subprocess.run(["freecadcmd", "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.stdout.strip(), (macro.read_text(), done.stderr, done.returncode)
+    assert float(done.stdout.strip().splitlines()[-1]) == pytest.approx(volume, rel=1e-9), done.stderr
+
+
+def test_every_command_has_its_icon_and_texts():
+    for command in COMMANDS:
+        shown = command().GetResources()
+        assert QtCore.QFile(shown["Pixmap"]).exists() and len(shown["ToolTip"]) > 20 and shown["Accel"]
+
+
+def test_starting_freecad_loads_nothing_heavy():
+    code = ("import sys; sys.path.insert(0, '.'); import ffds_workbench.objects.views; "
+            "print([name for name in ('numpy', 'scipy', 'Part', 'PySide2') if name in sys.modules])")
+    root = __import__("ffds_workbench").ROOT
+    done = subprocess.run(["/usr/bin/env", "python3", "-c", code], cwd=root, capture_output=True, text=True)
+    assert done.stdout.strip() == "[]", sys.version + done.stderr
