@@ -20,7 +20,8 @@ GridFunction = Callable[[Array, Array], Array]
 """f(u (m,), v (n,)) -> values on the grid, (m, n, 3)."""
 
 _CHECKS = np.array([0.21, 0.5, 0.79])
-_MOST_SITES = 60
+_LINES = 16, 60
+"""Lines across along which errors are looked at: while the knots are refined, and to be sure in the end."""
 _DEGENERATE_ROW = 1e-7
 """A row of control points within this box (mm) is a pole of the surface and is made exactly one point."""
 
@@ -123,8 +124,8 @@ def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction
     return Direction(start, end, interior, closed)
 
 
-def _some(x: Array) -> Array:
-    return x if len(x) <= _MOST_SITES else x[np.linspace(0, len(x) - 1, _MOST_SITES).round().astype(int)]
+def _some(x: Array, most: int) -> Array:
+    return x if len(x) <= most else x[np.linspace(0, len(x) - 1, most).round().astype(int)]
 
 
 def _interpolate(f: GridFunction, u: Direction, v: Direction) -> SplineSurface:
@@ -134,10 +135,10 @@ def _interpolate(f: GridFunction, u: Direction, v: Direction) -> SplineSurface:
     return SplineSurface(u.knots, v.knots, points, periodic_u=u.closed, periodic_v=v.closed)
 
 
-def _errors(f: GridFunction, surface: SplineSurface, u: Direction, v: Direction) -> tuple[Array, Array]:
+def _errors(f: GridFunction, surface: SplineSurface, u: Direction, v: Direction, lines: int) -> tuple[Array, Array]:
     """Largest interpolation error per span of u and per span of v, each taken at the other direction's sites."""
     cu, cv = u.checks, v.checks
-    su, sv = _some(np.sort(u.sites)), _some(np.sort(v.sites))
+    su, sv = _some(np.sort(u.sites), lines), _some(np.sort(v.sites), lines)
     in_u = np.linalg.norm(f(cu.ravel(), sv) - surface.on_grid(cu.ravel(), sv), axis=2)
     in_v = np.linalg.norm(f(su, cv.ravel()) - surface.on_grid(su, cv.ravel()), axis=2)
     return in_u.reshape(len(cu), -1).max(axis=1), in_v.T.reshape(len(cv), -1).max(axis=1)
@@ -164,8 +165,11 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
     v = direction(box.v0, box.v1, seeds_v, box.closed_v)
     for _ in range(rounds):
         surface = _interpolate(f, u, v)
-        error_u, error_v = _errors(f, surface, u, v)
-        if max(error_u.max(), error_v.max()) <= tolerance:
+        for lines in _LINES:
+            error_u, error_v = _errors(f, surface, u, v, lines)
+            if max(error_u.max(), error_v.max()) > tolerance:
+                break
+        else:
             break
         finer_u = u.refined(error_u, tolerance, most // len(v.sites))
         finer_v = v.refined(error_v, tolerance, most // len(finer_u.sites))
