@@ -152,6 +152,15 @@ class DeformationForm(QtWidgets.QWidget):
             for (box, _), count in zip(self._sizes, settings.lattice, strict=True):
                 box.setValue(count)
 
+    def show_size(self, size: tuple[int, int]) -> None:
+        """Show the control points that were chosen from the data."""
+        if self._automatic.isChecked():
+            for (box, slider), count in zip(self._sizes, size, strict=True):
+                box.blockSignals(True)
+                box.setValue(count)
+                box.blockSignals(False)
+                _move(slider, count)
+
     def set_scan(self, scan: Any) -> None:
         """Choose a scan."""
         if scan is not None:

@@ -139,17 +139,18 @@ class DeformationPanel:
         if not isinstance(failure, FfdsError):
             raise failure
         self._overlay.show([])
-        self._overlay.cover(None)
+        self._overlay.cover()
         self.form.show_figures(None, self._hint or str(failure))
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
-        self._overlay.cover(self.form.scan(self._document) if patches else None)
+        self._overlay.cover(*[self.form.scan(self._document)] if patches else [])
         if not patches:
             self._overlay.show([])
             self.form.show_figures(None, "OK registers all faces together: that takes some seconds.")
             return
         limit = good_limit(np.concatenate([patch.before for patch in patches]))
         nodes = [mesh_node(patch.points, patch.triangles, packed_colours(patch.values, limit)) for patch in patches]
+        self.form.show_size(patches[0].size)
         self._overlay.show([*nodes, *lattice_nodes([patch.lattice for patch in patches])], job.source.T_document_part)
         self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
 

@@ -7,25 +7,22 @@ from typing import Any
 import FreeCADGui as Gui
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from .. import api
 from ..brep import files, workpiece
+from ..brep.simulation import edge_points
 from ..objects.as_built import is_as_built
 from ..objects.scans import scan_points
 from ..registration.raster import make_raster
 from . import running
 from .colours import good_limit, packed_colours
 from .legend import Legend
-from .overlay import Overlay, mesh_node, points_node
+from .overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from .panel import choice, length, named, wrapped
-from .preview import cell_values, surface_grid
+from .preview import corner_values, corners, surface_grid
 from .qt import QtWidgets
 
 Array = NDArray[np.float64]
-
-_NEAR = 3.0
-"""Points farther from the cursor than this (mm) are not under it."""
 
 
 def open_panel(part: Any, scan: Any) -> None:
@@ -39,14 +36,14 @@ def open_panel(part: Any, scan: Any) -> None:
             return [(name, api.deviation(model, points, progress)) for name, model in models]
 
         found = running.in_background("Measuring the deviation", measure)
-        Gui.Control.showDialog(DeviationPanel(scan, found))
+        Gui.Control.showDialog(DeviationPanel(part, scan, found))
 
 
 class DeviationPanel:
     """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part."""
 
-    def __init__(self, scan: Any, found: list[tuple[str, api.Deviation]]) -> None:
-        self._scan, self._found = scan, dict(found)
+    def __init__(self, part: Any, scan: Any, found: list[tuple[str, api.Deviation]]) -> None:
+        self._part, self._scan, self._found = part, scan, dict(found)
         self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
         self.form = QtWidgets.QWidget()
         self.form.setWindowTitle("Deviation")
@@ -79,15 +76,16 @@ class DeviationPanel:
         item = self._found[self._state.currentData()]
         values = _deviations(item)
         self._points = item.scan.points[np.concatenate([face.points for face in item.faces])]
-        self._values, self._tree = values, cKDTree(self._points)
+        self._values = values
         limit, tolerance = max(self._limit.value(), 1e-6), self._tolerance.value()
         if self._on.currentData() == "scan":
             nodes = [points_node(self._points, packed_colours(values, limit, tolerance))]
         else:
             nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance))
                      for points, triangles, means in self._coloured_faces(item)]
+            nodes.append(lines_node(list(edge_points(item.model.shape, 40))))
         self._overlay.show(nodes)
-        self._overlay.cover(self._scan)
+        self._overlay.cover(self._scan, *[self._part] if self._on.currentData() == "part" else [])
         self._legend.show_deviations(values, limit, tolerance)
         self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
         self._cursor.setText("Point at the part to read the deviation there.")
@@ -98,19 +96,17 @@ class DeviationPanel:
             part = workpiece.read(item.model.shape)
             self._meshes[name] = []
             for index, face in enumerate(item.faces):
-                if len(face.points):
-                    raster = make_raster(part.geometry(index))
-                    means = cell_values(raster, item.scan.points[face.points], face.deviations)
-                    self._meshes[name].append((raster.position, surface_grid(raster), means))
+                geometry = part.geometry(index)
+                raster = make_raster(geometry)
+                means = corner_values(raster, item.scan.points[face.points], face.deviations)
+                points = geometry.surface.on_grid(*corners(raster)).reshape(-1, 3)
+                self._meshes[name].append((points, surface_grid(raster), means))
         return self._meshes[name]
 
     def _moved(self, event: dict) -> None:
-        """The mouse moved in the view: read the deviation of the scan point next to what is under it."""
-        found = self._view.getObjectInfo(tuple(event["Position"]))
-        if not found:
-            return
-        distance, index = self._tree.query((found["x"], found["y"], found["z"]))
-        if distance <= max(_NEAR, 3.0 * self._limit.value()):
+        """The mouse moved in the view: read the deviation of the foremost scan point under it."""
+        index = foremost(self._view, tuple(event["Position"]), self._points)
+        if index is not None:
             x, y, z = self._points[index]
             self._cursor.setText(f"<b>{self._values[index]:+.3f} mm</b> at {x:.1f}, {y:.1f}, {z:.1f}")
 

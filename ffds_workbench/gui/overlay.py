@@ -23,7 +23,7 @@ class Overlay:
 
     def __init__(self, document_name: str) -> None:
         self._view = Gui.getDocument(document_name).ActiveView
-        self._covered: tuple[Any, int] | None = None
+        self._covered: list[tuple[Any, int]] = []
         self._root = coin.SoSeparator()
         style = coin.SoPickStyle()
         style.style = coin.SoPickStyle.UNPICKABLE
@@ -42,19 +42,18 @@ class Overlay:
         for node in nodes:
             self._content.addChild(node)
 
-    def cover(self, item: Any) -> None:
-        """Leave a document object undrawn while it would hide the overlay, or none; its properties stay untouched."""
+    def cover(self, *items: Any) -> None:
+        """Leave these document objects, and no others, undrawn: they would hide the overlay. No property changes."""
         self._uncover()
-        if item is not None and item.ViewObject is not None:
+        for item in items:
             switch = item.ViewObject.SwitchNode
-            self._covered = (switch, switch.whichChild.getValue())
+            self._covered.append((switch, switch.whichChild.getValue()))
             switch.whichChild = coin.SO_SWITCH_NONE
 
     def _uncover(self) -> None:
-        if self._covered is not None:
-            switch, child = self._covered
+        while self._covered:
+            switch, child = self._covered.pop()
             switch.whichChild = child
-            self._covered = None
 
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
@@ -63,6 +62,16 @@ class Overlay:
             self._view.getSceneGraph().removeChild(self._root)
         except (ReferenceError, RuntimeError):
             return
+
+
+def foremost(view: Any, place: tuple[int, int], points: Array, pixels: int = 6) -> int | None:
+    """Which of the points (n, 3) is drawn at ``place`` on the screen, in front of all others; None for none."""
+    origin, beside = (np.array(view.getPoint(place[0] + shift, place[1])) for shift in (0, pixels))
+    direction = np.array(view.getViewDirection())
+    towards = points - origin
+    depth = towards @ direction
+    near = np.flatnonzero(np.einsum("ij,ij->i", towards, towards) - depth**2 < np.sum((beside - origin) ** 2))
+    return int(near[np.argmin(depth[near])]) if len(near) else None
 
 
 def points_node(points: Array, colours: NDArray[np.uint32], size: float = 3.0) -> Any:
@@ -94,6 +103,11 @@ def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np
     return node
 
 
+def lines_node(lines: Sequence[Array]) -> Any:
+    """Polylines in the colour of edges, each (k, 3) in mm."""
+    return _lines(coin.SoSeparator(), lines, (0.1, 0.1, 0.12), 1.5)
+
+
 def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:
     """Control lattices before and after: their rows and columns as lines, their control points as points."""
     if not lattices:
@@ -103,23 +117,31 @@ def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:
 
 
 def _lattice_node(grids: Sequence[Array], colour: tuple[float, float, float], width: float, size: float) -> Any:
-    node = coin.SoAnnotation()  # in front of everything: most of a lattice lies just below its face
+    lines = [row for grid in grids for row in (*grid, *grid.swapaxes(0, 1))]
+    # An annotation is drawn in front of everything: most of a lattice lies just below its face.
+    node = _lines(coin.SoAnnotation(), lines, colour, width)
+    if size:
+        style = coin.SoDrawStyle()
+        style.pointSize = size
+        node.addChild(style)
+        node.addChild(_coordinates(np.concatenate([grid.reshape(-1, 3) for grid in grids])))
+        node.addChild(coin.SoPointSet())
+    return node
+
+
+def _lines(node: Any, lines: Sequence[Array], colour: tuple[float, float, float], width: float) -> Any:
     node.addChild(_flat_light())
     base = coin.SoBaseColor()
     base.rgb.setValue(*colour)
     node.addChild(base)
     style = coin.SoDrawStyle()
-    style.lineWidth, style.pointSize = width, max(size, 1.0)
+    style.lineWidth = width
     node.addChild(style)
-    lines = [row for grid in grids for row in (*grid, *grid.swapaxes(0, 1))]
     node.addChild(_coordinates(np.concatenate(lines)))
     strips = coin.SoLineSet()
     counts = [len(line) for line in lines]
     strips.numVertices.setValues(0, len(counts), counts)
     node.addChild(strips)
-    if size:
-        node.addChild(_coordinates(np.concatenate([grid.reshape(-1, 3) for grid in grids])))
-        node.addChild(coin.SoPointSet())
     return node
 
 

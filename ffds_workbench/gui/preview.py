@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 import Part
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter
 
 from ..brep import workpiece
 from ..errors import RefusedError
@@ -24,7 +23,7 @@ from ..registration.footpoints import SurfaceCoordinates, surface_coordinates
 from ..registration.raster import Raster, make_raster
 from ..registration.result import FaceRegistration
 from ..registration.robust import RobustSettings, register_robust
-from ..registration.splines import SplineSurface
+from ..registration.splines import DEGREE, SplineSurface
 
 Array = NDArray[np.float64]
 
@@ -47,6 +46,7 @@ class Patch:
     values : (n,) mean deviation of the scan there in mm, NaN without data
     before, after : (k,) deviations of its scan points in mm
     coverage : share of the face that the scan observes
+    size : (N_i, N_j), control points in u and v; repeated ones of a closed direction do not count
     """
 
     lattice: Lattice
@@ -56,6 +56,7 @@ class Patch:
     before: Array
     after: Array
     coverage: float
+    size: tuple[int, int]
 
 
 class Preview:
@@ -108,10 +109,12 @@ class _Face:
         before, after = places.height, _after(self.raster, places, found.displacement)
         own = np.abs(after) < max(_FAR, _FAR_MEDIANS * float(np.median(np.abs(after))))
         before, after, cell = before[own], after[own], places.in_cell[0][own]
-        displaced = self.raster.position + found.displacement.on_grid(self.raster.u, self.raster.v).reshape(-1, 3)
-        values = _means(self.raster, cell, after)
+        u, v = corners(self.raster)
+        displaced = (self.geometry.surface.on_grid(u, v) + found.displacement.on_grid(u, v)).reshape(-1, 3)
+        values = _at_corners(self.raster, cell, after)
         lattice = draw_lattice(self.geometry.surface, found.displacement)
-        return Patch(lattice, displaced, self.grid, values, before, after, found.coverage)
+        return Patch(lattice, displaced, self.grid, values, before, after, found.coverage,
+                     _size(found.displacement))
 
 
 def figures(patches: Sequence[Patch]) -> tuple[float, float, float, float, float]:
@@ -123,17 +126,34 @@ def figures(patches: Sequence[Patch]) -> tuple[float, float, float, float, float
             float(np.percentile(after, 95)), coverage)
 
 
-def cell_values(raster: Raster, points: Array, deviations: Array) -> Array:
-    """Mean deviation of each cell's points, NaN without any; points (k, 3) in mm that lie on the face."""
-    found = surface_coordinates(raster, points, np.inf)
-    return _means(raster, found.in_cell[0], deviations[found.index])
+def corner_values(raster: Raster, points: Array, deviations: Array) -> Array:
+    """Mean deviation around each corner of the cells, NaN without data; points (k, 3) in mm that lie on the face."""
+    if not len(points):
+        return np.full((raster.shape[0] + 1) * (raster.shape[1] + 1), np.nan)
+    found = surface_coordinates(raster, points, float(np.abs(deviations).max()) + 1.0)
+    return _at_corners(raster, found.in_cell[0], deviations[found.index])
 
 
-def _means(raster: Raster, cell: NDArray[np.intp], values: Array) -> Array:
-    """Mean of the values of each cell and the cells around it, NaN where there are none."""
-    count, total = (uniform_filter(np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float),
-                                   3, mode="constant").ravel() for weights in (None, values))
-    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0.01)
+def corners(raster: Raster) -> tuple[Array, Array]:
+    """Parameters of the cells' corners, (m + 1,) in u and (n + 1,) in v."""
+    return (raster.corner[0] + raster.step[0] * np.arange(raster.shape[0] + 1),
+            raster.corner[1] + raster.step[1] * np.arange(raster.shape[1] + 1))
+
+
+def _at_corners(raster: Raster, cell: NDArray[np.intp], values: Array) -> Array:
+    """Mean at each corner of the values in the cells around it, NaN where there are none; ((m + 1)·(n + 1),)."""
+    sums = []
+    for weights in (None, values):
+        cells = np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float)
+        around = sum(np.pad(cells, (rows, columns)) for rows in ((0, 1), (1, 0)) for columns in ((0, 1), (1, 0)))
+        for axis, closed in enumerate(raster.periodic):
+            if closed:
+                ends = np.moveaxis(around, axis, 0)
+                ends[0] += ends[-1]
+                ends[-1] = ends[0]
+        sums.append(around.ravel())
+    count, total = sums
+    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)
 
 
 def _register(geometry: FaceGeometry, points: Array, settings: Settings, coarse: bool) -> FaceRegistration:
@@ -145,18 +165,20 @@ def _register(geometry: FaceGeometry, points: Array, settings: Settings, coarse:
     return published(geometry, points, lattice, settings.source_points)
 
 
+def _size(displacement: SplineSurface) -> tuple[int, int]:
+    rows, columns = displacement.control_points.shape[:2]
+    return rows - DEGREE * displacement.periodic_u, columns - DEGREE * displacement.periodic_v
+
+
 def _after(raster: Raster, places: SurfaceCoordinates, displacement: SplineSurface) -> Array:
     uv = raster.corner + raster.step * np.stack([places.x, places.y], axis=1)
     return places.height - np.einsum("ij,ij->i", displacement(uv), raster.normal[places.in_cell[0]])
 
 
 def surface_grid(raster: Raster) -> NDArray[np.intp]:
-    """Triangles between the centres of neighbouring cells that carry material; closed directions join up."""
-    index = np.arange(len(raster.position)).reshape(raster.shape)
-    inside = raster.inside.reshape(raster.shape)
-    for axis, closed in enumerate(raster.periodic):
-        if closed:
-            index, inside = (np.concatenate([a, a.take([0], axis=axis)], axis=axis) for a in (index, inside))
-    a, b, c, d = (grid.ravel() for grid in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
-    whole = (inside[:-1, :-1] & inside[1:, :-1] & inside[1:, 1:] & inside[:-1, 1:]).ravel()
-    return np.concatenate([np.stack([a, b, c], axis=1)[whole], np.stack([a, c, d], axis=1)[whole]])
+    """Triangles (k, 3) between the corners of the cells that carry material."""
+    m, n = raster.shape
+    index = np.arange((m + 1) * (n + 1)).reshape(m + 1, n + 1)
+    corner = (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])
+    a, b, c, d = (grid.ravel()[raster.inside] for grid in corner)
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
