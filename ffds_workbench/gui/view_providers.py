@@ -5,10 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from .. import RESOURCES
+from ..objects.seams import is_seams
+from . import seams_view
 
 
 def attach(item: Any, source: Any) -> None:
-    """Give a new as-built part its view, in the colours of its nominal part."""
+    """Give a new object its view: an as-built part in the colours of its nominal part, seams in those of their figures."""
+    if is_seams(item):
+        seams_view.attach(item)
+        return
     AsBuiltView(item.ViewObject)
     theirs, ours = source.ViewObject, item.ViewObject
     for name in ("ShapeColor", "LineColor", "PointColor", "LineWidth", "Transparency", "DisplayMode", "DiffuseColor"):

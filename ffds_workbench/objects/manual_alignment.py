@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The alignment of a scan from points picked on it and on the part: the way out where no pose is found by itself."""
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import api
+from ..brep import files
+from ..errors import InputError
+from ..registration.rigid.point_pairs import pose_of_pairs
+from ..report.stopwatch import Progress
+from .scans import scan_points, set_points
+from .sources import standing_for
+
+Array = NDArray[np.float64]
+Picks = Sequence[tuple[float, float, float]]
+
+_last: dict[str, Array] = {}
+
+
+def align_by_points(source: Any, scan: Any, on_scan: Picks, on_part: Picks, refine: bool = True) -> Any:
+    """Move a scan onto a part, starting where three or more picked pairs of points meet. Returns the scan.
+
+    Parameters
+    ----------
+    source, scan : the part and the Points object
+    on_scan, on_part : (x, y, z) in mm in the document's coordinates, pair by pair
+    refine : go on from there by a fine alignment; else the points alone decide
+
+    Raises
+    ------
+    InputError : the points, the part or the scan cannot be used
+    RefusedError : the fine alignment finds no pose there that explains the scan
+    """
+    set_points(scan, prepare(source, scan, on_scan, on_part, refine)(None))
+    return scan
+
+
+def prepare(source: Any, scan: Any, on_scan: Picks, on_part: Picks,
+            refine: bool = True) -> Callable[[Progress | None], Array]:
+    """The alignment as a function that touches no document, for any thread (call this on the main thread).
+
+    It gives the points of the scan on the part, (n, 3) in the document's coordinates.
+
+    Raises
+    ------
+    InputError : as `align_by_points` does
+    """
+    start = pose_of_pairs(np.array(on_scan, dtype=float), np.array(on_part, dtype=float))
+    points, model = scan_points(scan), files.from_object(standing_for(source))
+    if scan.getParentGeoFeatureGroup() is not None:
+        raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
+    key = hashlib.blake2b(model.shape.exportBrepToString().encode() + points.tobytes() + start.tobytes()
+                          + bytes([refine])).hexdigest()
+
+    def run(progress: Progress | None = None) -> Array:
+        if not refine:
+            return points @ start[:3, :3].T + start[:3, 3]
+        if key not in _last:
+            found = api.align_scan(model, points, "fine", progress, start).scan.points
+            _last.clear()
+            _last[key] = found
+        return _last[key]
+
+    return run
