@@ -81,7 +81,7 @@ class DeviationPanel:
         if self._on.currentData() == "scan":
             nodes = [points_node(self._points, packed_colours(values, limit, tolerance))]
         else:
-            nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance))
+            nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance), over=False)
                      for points, triangles, means in self._coloured_faces(item)]
             nodes.append(lines_node(list(edge_points(item.model.shape, 40))))
         self._overlay.show(nodes)

@@ -87,11 +87,14 @@ def points_node(points: Array, colours: NDArray[np.uint32], size: float = 3.0) -
     return node
 
 
-def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32]) -> Any:
-    """A surface in the colours of the legend, unshaded: (n, 3) in mm, (m, 3) indices, (n,) packed colours."""
+def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32], over: bool = True) -> Any:
+    """A surface in the colours of the legend, unshaded: (n, 3) in mm, (m, 3) indices, (n,) packed colours.
+
+    ``over`` draws it before what lies in it, a face of the part; else behind, as lines on it need.
+    """
     node = coin.SoSeparator()
     offset = coin.SoPolygonOffset()
-    offset.factor, offset.units = -2.0, -2.0
+    offset.factor = offset.units = -2.0 if over else 2.0
     node.addChild(offset)
     node.addChild(_flat_light())
     node.addChild(_colours(colours, coin.SoMaterialBinding.PER_VERTEX_INDEXED))
