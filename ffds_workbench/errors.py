@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The two ways in which a request is turned down. Every layer raises these; the command line maps them to exit codes."""
+"""The two ways in which a request is turned down; the command line maps them to exit codes."""
 
 
 class FfdsError(Exception):

@@ -20,8 +20,7 @@ SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for pat
 
 
 def _layer(path: Path) -> str:
-    layer = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
-    return layer
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
 def _imports(path: Path) -> Iterator[str]:

@@ -121,8 +121,8 @@ def _sections(data: dict[str, Any]) -> list[Section]:
         rows.append([f"{row['points']:,}", *(f"{1e3 * row[name]:.0f}" for name in names), *further,
                      f"{row['peak_megabytes']:.0f}"])
     scaling = Table("Time and memory against the size of the scan", head, rows)
-    text = ["A build is one `scipy.spatial.cKDTree(scan)` of the same 100,000 points in the same run. The peak memory is "
-            "the whole process's, its scans included."]
+    text = ["A build is one `scipy.spatial.cKDTree(scan)` of the same 100,000 points in the same run. The peak memory "
+            "is the whole process's, its scans included."]
     return [Section("Against a k-d tree", text, tables=[builds]), Section("Scaling", tables=[scaling])]
 
 

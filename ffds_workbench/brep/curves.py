@@ -82,7 +82,7 @@ class Spline:
 class Offset:
     """A curve moved sideways by ``distance``; in space the side is tangent × ``normal`` (None in the plane)."""
 
-    basis: "Curve"
+    basis: Curve
     distance: float
     normal: Array | None
 

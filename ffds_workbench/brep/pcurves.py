@@ -71,9 +71,7 @@ class PcurveReader:
         if stored is None:
             return UsedEdge(edge, (self._projected(face, edge, surface, place),), "", place)
         orientations = {use.orientation for use in group}
-        if len(stored.pcurves) == 1:
-            chosen = stored.pcurves
-        elif orientations == {"+", "-"}:
+        if len(stored.pcurves) == 1 or orientations == {"+", "-"}:
             chosen = stored.pcurves
         else:
             chosen = (stored.pcurves[1 if "-" in orientations else 0],)

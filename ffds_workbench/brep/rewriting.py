@@ -106,9 +106,10 @@ class Rewriter:
             shape = self._old.shapes[instance.shape]
             index = self._number.get((shape.kind, instance))
             own = {"Fa": self._faces, "Ed": self._edges, "Ve": self._vertices}.get(shape.kind, {})
-            self._changed[instance] = index in own or any([
+            below = [
                 self._changes(Instance(child.shape, product(instance.place, self._locations.chain(child.location))))
-                for child in shape.children])
+                for child in shape.children]
+            self._changed[instance] = index in own or any(below)
         return self._changed[instance]
 
     def _geometry(self, old: TShape, instance: Instance) -> VertexPoint | EdgeCurves | FaceSurface | None:

@@ -129,7 +129,7 @@ def parse(text: str) -> BrepText:
     if [mark[1] for mark in marks] != list(_SECTIONS):
         raise RefusedError("The shape's BREP text is damaged: its sections are not the expected ones.")
     ends = [mark.start() for mark in marks[1:]] + [len(text)]
-    section = {mark[1]: (text[mark.end():end].split(), int(mark[2])) for mark, end in zip(marks, ends)
+    section = {mark[1]: (text[mark.end():end].split(), int(mark[2])) for mark, end in zip(marks, ends, strict=True)
                if not mark[1].startswith(("Polygon", "Triangulation"))}
     try:
         shapes, root = _shapes(*section["TShapes"])

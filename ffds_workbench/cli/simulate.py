@@ -52,7 +52,8 @@ def settings(options: argparse.Namespace) -> SensorSettings:
         raise InputError(f"A seed is not negative, as {options.seed} is.")
     return SensorSettings(spacing=options.spacing, noise=options.noise, correlation=options.correlation,
                           views=tuple(View(direction) for direction in options.view), outliers=options.outliers,
-                          edge_dropout=options.dropout, holes=options.holes, table=options.table, pose_error=shift, pose_error_angle=angle,
+                          edge_dropout=options.dropout, holes=options.holes, table=options.table,
+                          pose_error=shift, pose_error_angle=angle,
                           seed=options.seed)
 
 

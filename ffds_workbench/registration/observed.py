@@ -66,9 +66,9 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
     Notes
     -----
     Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the
-    nearest face, each layer to the one that owns most of its points. The face with the least of its area under layers of
-    its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a sheet
-    that moved inwards by more than half the thickness is not taken for the other skin.
+    nearest face, each layer to the one that owns most of its points. The face with the least of its area under layers
+    of its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a
+    sheet that moved inwards by more than half the thickness is not taken for the other skin.
     """
     if len(scan) > _SAMPLE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE, replace=False)]

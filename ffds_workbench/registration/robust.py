@@ -13,14 +13,14 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import RefusedError
-from .coverage import covered_share
 from .control_lattice import displacement_lattice
+from .coverage import covered_share
 from .face import FaceGeometry
 from .footpoints import SurfaceCoordinates, surface_coordinates
 from .lattice_size import automatic_lattice, coarse_lattice
 from .normals import facing, scan_normals
 from .patches import main_patches, patches, proven
-from .raster import Raster, make_raster
+from .raster import make_raster
 from .raster_fit import RasterFit, RobustSettings
 from .result import FaceRegistration
 from .splines import Array
@@ -32,7 +32,7 @@ _MANY_WALLS, _MOST_NORMALS = 0.1, 50000
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
-                    settings: RobustSettings = RobustSettings()) -> FaceRegistration:
+                    settings: RobustSettings | None = None) -> FaceRegistration:
     """Deform a face to a scan that may be noisy, incomplete and full of other things.
 
     Parameters
@@ -40,13 +40,14 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     face : the nominal face
     scan : (n, 3) in mm, finite, in the frame of the model; clutter, other faces and gaps are expected
     lattice : (N_i, N_j) control points in u and v, or None to choose them from the data
-    settings : gates, stiffness and reach
+    settings : gates, stiffness and reach; None for the defaults
 
     Raises
     ------
     RefusedError
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
+    settings = settings or RobustSettings()
     raster = make_raster(face)
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
     points = surface_coordinates(raster, scan, settings.reach, margin)

@@ -27,6 +27,6 @@ def blocked_ways(shape: Part.Shape, paths: Sequence[SeamMoves]) -> list[str]:
             # A little within the seam: its end may lie in the part's own border.
             way = end + _WITHIN * (next_to_it - end) + _ALONG[:, None] * (away[:3, 3] - end)
             if any(weldment.in_material(point) for point in way):
-                sentences.append(f"The {what} {path.name} leads through the part: shorten it, lean the torch or weld from "
-                                 "another start.")
+                sentences.append(f"The {what} {path.name} leads through the part: shorten it, lean the torch or weld "
+                                 "from another start.")
     return sentences

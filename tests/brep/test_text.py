@@ -112,7 +112,8 @@ def test_curves_are_occts():
     offset = Part.OffsetCurve(spline, 0.5, Vector(0, 0, 1))
     for curve, first, last in ((Part.Line(Vector(1, 2, 3), Vector(2, 4, 1)), -1, 2), (Part.Circle(), 0, 6),
                                (ellipse, 0, 6), (parabola, -2, 2), (Part.Hyperbola(), -1, 1), (bezier, 0, 1),
-                               (spline, spline.FirstParameter, spline.LastParameter), (rational, rational.FirstParameter, rational.LastParameter),
+                               (spline, spline.FirstParameter, spline.LastParameter),
+                                (rational, rational.FirstParameter, rational.LastParameter),
                                (offset, offset.FirstParameter, offset.LastParameter)):
         edge = curve.toShape(first, last)
         brep = parse(edge.exportBrepToString())

@@ -2,6 +2,7 @@
 """Faces that several tests of the registration share."""
 import numpy as np
 import pytest
+
 from ffds_workbench.brep.lattice import ParameterBox, approximate
 from ffds_workbench.registration.face import FaceGeometry
 

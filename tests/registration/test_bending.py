@@ -2,6 +2,7 @@
 """Bending energies against integrals done by hand."""
 import numpy as np
 import pytest
+
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.bending import bending_and_gauge

@@ -2,6 +2,7 @@
 """The published algorithm: its pseudo-inverses, its steps on a sheet, and what it refuses."""
 import numpy as np
 import pytest
+
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError

@@ -2,6 +2,7 @@
 """Foot points against closed forms, on a plane, a full cylinder and a sphere with both poles."""
 import numpy as np
 import pytest
+
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.face import FaceGeometry

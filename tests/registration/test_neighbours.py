@@ -2,8 +2,9 @@
 """Closest scan points without a tree: the same answers as scipy's k-d tree, whatever the cloud looks like."""
 import numpy as np
 import pytest
-from ffds_workbench.registration.neighbours import nearest_neighbours
 from scipy.spatial import cKDTree
+
+from ffds_workbench.registration.neighbours import nearest_neighbours
 
 RANDOM = np.random.default_rng(7)
 

@@ -3,6 +3,7 @@
 import numpy as np
 import Part
 import pytest
+
 from ffds_workbench.brep import workpiece
 from ffds_workbench.registration.observed import observed_faces
 

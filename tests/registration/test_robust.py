@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError

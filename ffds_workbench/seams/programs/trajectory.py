@@ -29,7 +29,8 @@ _PROVIDER = """
 """What a document that was saved without a GUI lacks: it opens with everything hidden."""
 
 
-def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings) -> list[FreeCAD.DocumentObject]:
+def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings
+                     ) -> list[FreeCAD.DocumentObject]:
     """Add the seams to a document; velocities are in mm/s, and a tool or base number is passed on."""
     objects = []
     tool = settings.tool if isinstance(settings.tool, int) else _NAMED_TOOL
