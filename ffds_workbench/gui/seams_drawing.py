@@ -96,9 +96,9 @@ def _legend(title: str, entries: list[Entry]) -> Any:
     font = coin.SoFont()
     font.size = 14.0
     front.addChild(font)
-    for text, height in [(title, low[-1] + 1.5 * _TALL), *((text, y + 0.25 * _TALL)
-                                                          for (text, _), y in zip(entries, low, strict=True))]:
-        front.addChild(_words(text, _LEFT + (1.4 * _WIDE if text != title else 0.0), float(height)))
+    front.addChild(_words(title, _LEFT, float(low[-1] + 1.5 * _TALL)))
+    for (text, _), height in zip(entries, low, strict=True):
+        front.addChild(_words(text, _LEFT + 1.4 * _WIDE, float(height + 0.25 * _TALL)))
     return holder
 
 

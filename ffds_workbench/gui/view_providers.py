@@ -10,11 +10,13 @@ from . import seams_view
 
 
 def attach(item: Any, source: Any) -> None:
-    """Give a new object its view: an as-built part in the colours of its nominal part, seams in those of their figures."""
+    """Give a new object its view: an as-built part in its nominal part's colours, seams in those of their figures."""
     if is_seams(item):
         seams_view.attach(item)
         return
     AsBuiltView(item.ViewObject)
+    if source is None:
+        return
     theirs, ours = source.ViewObject, item.ViewObject
     for name in ("ShapeColor", "LineColor", "PointColor", "LineWidth", "Transparency", "DisplayMode", "DiffuseColor"):
         if name in getattr(theirs, "PropertiesList", ()) and getattr(theirs, name) != getattr(ours, name):

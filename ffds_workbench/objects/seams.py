@@ -45,9 +45,9 @@ class Seams(Feature):
 
     PROPERTIES = (
         Property("AsBuilt", "App::PropertyLinkGlobal", "Seams", "The part to weld"),
-        Property("Nominal", "App::PropertyLinkGlobal", "Seams", "The part to compare with, as it was designed; or none"),
+        Property("Nominal", "App::PropertyLinkGlobal", "Seams", "The part as it was designed, or none"),
         Property("Edges", "App::PropertyLinkSubListGlobal", "Seams",
-                 "The edges to weld, joined where they go on along tangency; with a tolerance, only the joints on them"),
+                 "The edges to weld, joined where they go on along tangency; with a tolerance, the joints on them"),
         Property("Tolerance", "App::PropertyLength", "Seams",
                  "Find the joints of parts that touch within this distance; 0: the seams are the named edges"),
         Property("Chain", "App::PropertyBool", "Seams", "Add the edges that go on from the named ones along tangency"),
@@ -182,8 +182,8 @@ def export_program(item: Any, path: str) -> None:
 
 def add_trajectories(item: Any) -> list[Any]:
     """FreeCAD's own robot trajectories of seams, one object each, in their document."""
-    robot = robot_of(item)
-    return add_moves(item.Document, [moves(seam, robot) for seam in _plan(item).seams], robot)
+    plan, robot = _plan(item), robot_of(item)
+    return add_moves(item.Document, [moves(seam, robot) for seam in plan.seams], robot)
 
 
 def robot_of(item: Any) -> api.RobotSettings:

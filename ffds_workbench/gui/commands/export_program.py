@@ -11,7 +11,8 @@ from ..running import ACTIONS, in_background, name_of
 from .command import Command
 from .find_seams import selected_seams
 
-_FORMATS = {"KUKA program (*.src)": ".src", "ABB program (*.mod)": ".mod", "Universal Robots program (*.script)": ".script",
+_FORMATS = {"KUKA program (*.src)": ".src", "ABB program (*.mod)": ".mod",
+            "Universal Robots program (*.script)": ".script",
             "Table of stations (*.csv)": ".csv", "FreeCAD document with trajectories (*.FCStd)": ".FCStd",
             "Report (*.json)": ".json", "Picture of the report (*.png)": ".png"}
 
