@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The shapes and displacements of the topology benchmark: FreeCAD's primitives, CAD files, and three ways to move them."""
+"""The shapes of the topology benchmark, FreeCAD's primitives and CAD files, and three ways to move them."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
@@ -78,7 +78,7 @@ def warp(workpiece: Workpiece) -> dict[int, FaceDisplacement]:
 
 
 def bump(face: WorkpieceFace) -> SplineSurface:
-    """A displacement of one face that does not vanish at its boundary: 8 × 8 control points on a wavy field in space."""
+    """A displacement of one face that does not vanish at its boundary: 8 × 8 control points on waves in space."""
     box = face.box
     (knots_u, sites_u), (knots_v, sites_v) = (_direction(box.u0, box.u1, box.closed_u),
                                               _direction(box.v0, box.v1, box.closed_v))

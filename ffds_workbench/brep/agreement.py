@@ -63,7 +63,7 @@ class Rim:
     ----------
     samples : points along all edges of the edited faces
     displacement : (n, 3) what the faces agree on, in mm
-    dispute : (n,) how far in mm the faces are apart there, counting for each only what it has a say in; fades along the edges
+    dispute : (n,) how far in mm the faces are apart there, counting for each what it has a say in; fades along edges
     sides : for each edited face, its own displacement along its edges
     """
 

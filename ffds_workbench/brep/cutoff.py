@@ -33,8 +33,8 @@ _STEP_KNOT = 0.5 - np.sqrt(0.125)
 def step(t: Array) -> Array:
     """From 0 at t ≤ 0 to 1 at t ≥ 1, with three continuous derivatives and the smallest possible fourth.
 
-    The perfect spline of degree 4, its fourth derivative ±384 between Chebyshev knots: of all steps the one that a cubic
-    lattice follows with the fewest knots, its interpolation error being (knot spacing / width)⁴.
+    The perfect spline of degree 4, its fourth derivative ±384 between Chebyshev knots: of all steps the one that a
+    cubic lattice follows with the fewest knots, its interpolation error being (knot spacing / width)⁴.
     """
     t = np.clip(t, 0.0, 1.0)
     lower = np.minimum(t, 1.0 - t)

@@ -78,7 +78,7 @@ class EditedFace:
     ----------
     own : d, registered displacement over the face's (u, v)
     correction : c, what makes it equal the field along its edges where edited neighbours dispute them, or None
-    rim : ρ, 0 along the edges where d + c is not close to the field, 1 away from them; None where it is close everywhere
+    rim : ρ, 0 along the edges where d + c is not close to the field, 1 away from them; None where it always is
     field : D
     """
 
@@ -168,7 +168,7 @@ def _refuse_contradictions(workpiece: Workpiece, edited: Collection[int], frozen
     both = sorted(frozen.intersection(edited))
     if both:
         names = ", ".join(workpiece.faces[face].name for face in both)
-        raise InputError(f"{names} cannot be deformed and frozen at the same time: take it out of one of the two lists.")
+        raise InputError(f"{names} cannot be deformed and frozen at once: take it out of one of the two lists.")
     if len(frozen) == len(workpiece.faces):
         raise RefusedError("Every face is frozen: leave at least one face free to move.")
 

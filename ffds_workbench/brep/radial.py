@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A smooth vector field in space through given displacements: compactly supported radial basis functions.
 
-Owns the mathematics of the interpolation alone: points and vectors in mm, nothing of shapes. scipy's ``RBFInterpolator``
-has no kernel of compact support; without one a local edit would move the far end of the part.
+Owns the mathematics of the interpolation alone: points and vectors in mm, nothing of shapes. scipy's
+``RBFInterpolator`` has no kernel of compact support; without one a local edit would move the far end of the part.
 """
 from __future__ import annotations
 

@@ -193,7 +193,7 @@ class _Geometry:
         else:
             point = deciding.mean(axis=0)
         distance = float(np.linalg.norm(ends - point, axis=1).max())
-        tolerance = max(old.tolerance, 1.05 * distance + 2e-8, least)
+        tolerance = max(old.tolerance, distance + min(0.05 * distance, 3e-5) + 2e-8, least)
         return NewVertex(None if stays else point, tolerance)
 
 

@@ -48,8 +48,10 @@ def join(parts: Iterable[EdgeSamples]) -> EdgeSamples:
     parts = list(parts)
     if not parts:
         return EdgeSamples(np.empty(0, dtype=np.intp), np.empty(0), np.empty((0, 3)), np.empty(0))
-    return EdgeSamples(np.concatenate([part.edges for part in parts]), np.concatenate([part.fractions for part in parts]),
-                       np.concatenate([part.points for part in parts]), np.concatenate([part.lengths for part in parts]))
+    return EdgeSamples(np.concatenate([part.edges for part in parts]),
+                       np.concatenate([part.fractions for part in parts]),
+                       np.concatenate([part.points for part in parts]),
+                       np.concatenate([part.lengths for part in parts]))
 
 
 def along_edge(workpiece: Workpiece, edge: int, spacing: Callable[[Array], Array]) -> EdgeSamples:

@@ -125,7 +125,8 @@ def held_edges(workpiece: Workpiece, edited: frozenset[int], frozen: frozenset[i
 def _border(workpiece: Workpiece, moving: set[int]) -> tuple[set[int], set[int]]:
     """Edges and lone vertices of the moving faces that belong to a face that stays, too."""
     topology = workpiece.topology
-    edges = {edge for face in moving for edge in topology.face_edges[face] if not moving.issuperset(topology.edge_faces[edge])}
+    edges = {edge for face in moving for edge in topology.face_edges[face]
+             if not moving.issuperset(topology.edge_faces[edge])}
     on_edges = {vertex for edge in edges for vertex in topology.edge_vertices[edge]}
     vertices = {vertex for face in moving for vertex in topology.face_vertices[face]
                 if vertex not in on_edges and not moving.issuperset(topology.vertex_faces[vertex])}

@@ -113,7 +113,8 @@ def read(shape: Part.Shape) -> Topology:
         counts=counts,
         solid_faces=tuple(face_number.all(solid.Faces) for solid in shape.Solids),
         shell_faces=tuple(face_number.all(shell.Faces) for shell in shape.Shells),
-        face_wires=tuple(tuple(edge_number.all(wire.childShapes(False, True)) for wire in face.Wires) for face in faces),
+        face_wires=tuple(tuple(edge_number.all(wire.childShapes(False, True)) for wire in face.Wires)
+                         for face in faces),
         face_edges=tuple(edge_number.all(face.Edges) for face in faces),
         edge_vertices=tuple(vertex_number.all(edge.Vertexes) for edge in edges),
         reversed_faces=tuple(face.Orientation == "Reversed" for face in faces),

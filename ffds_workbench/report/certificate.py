@@ -26,7 +26,7 @@ from ..registration.splines import Array
 GAP_LIMIT = 1e-4
 """Largest edge gap beyond the nominal's own in mm."""
 TOLERANCE_LIMIT = 1e-3
-"""Largest tolerance in mm, where neither the nominal's own nor its edge gap (which a tolerance has to cover) is larger."""
+"""Largest tolerance in mm, where neither the nominal's own nor its edge gap, which it has to cover, is larger."""
 _UNIFORM_SAMPLES = 65
 _SAMPLES_PER_SPAN = 2
 

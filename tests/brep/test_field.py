@@ -53,7 +53,7 @@ def bulge(points: np.ndarray) -> np.ndarray:
 
 
 def largest_disagreement(part: workpiece.Workpiece, displacements) -> tuple[float, float]:
-    """Largest difference in mm between two moving faces at a shared edge, and largest motion beside a face that stays."""
+    """Largest difference in mm of two moving faces at their edge, and largest motion beside a face that stays."""
     fractions = np.linspace(0, 1, 157)
     between, beside = [0.0], [0.0]
     for edge, faces in enumerate(part.topology.edge_faces):
@@ -136,7 +136,7 @@ def test_contradictions_are_refused():
 
 
 def test_faces_registered_apart_meet_and_keep_their_interior():
-    """0.1 mm apart at their edge: one field there, and from a quarter of the size on the correction is within its fidelity."""
+    """0.1 mm apart at their edge: one field there; a quarter of the size away the correction is gone."""
     part = workpiece.read(Part.makeBox(60, 40, 20))
     top, side = face_at(part, (30, 20, 20)), face_at(part, (60, 20, 10))
     own = {top: lattice(part, top, bulge), side: lattice(part, side, lambda points: bulge(points) + (0.1, 0.0, -0.1))}
@@ -196,7 +196,7 @@ def test_wendland_function_is_the_published_one():
 
 
 def test_step_is_smooth_from_0_to_1():
-    """Ends exact; third derivative continuous: its jumps on a grid are the fourth derivative, at most 384, times the step."""
+    """Ends exact; third derivative continuous: its steps on a grid are at most 384, the fourth, times the step."""
     t = np.linspace(0, 1, 2001)
     values = step(t)
     assert values[0] == 0
