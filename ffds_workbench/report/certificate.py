@@ -11,10 +11,11 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import FreeCAD
 import numpy as np
 import Part
 
@@ -29,6 +30,7 @@ TOLERANCE_LIMIT = 1e-3
 """Largest tolerance in mm, where neither the nominal's own nor its edge gap, which it has to cover, is larger."""
 _UNIFORM_SAMPLES = 65
 _SAMPLES_PER_SPAN = 2
+_AROUND_LARGEST = 17
 
 _CHECKER = """
 import json, sys
@@ -185,23 +187,33 @@ def _end_gaps(edge: Part.Edge) -> list[float]:
 
 
 def _side_gaps(face: Part.Face, edge: Part.Edge) -> Iterator[float]:
-    """Largest distance of the edge's curve from the face along each of its pcurves there."""
-    for trace in topology.edge_traces(face, edge, _fractions(edge)):
-        value = face.Surface.value
-        on_face = np.array([tuple(value(u, v)) for u, v in trace.uv.tolist()])
-        yield float(np.linalg.norm(on_face - trace.points, axis=1).max())
+    """Largest distance of the edge's curve from the face along each of its pcurves there.
+
+    Sampled evenly and inside every span of both curves, then once more around the largest.
+    """
+    fractions = _fractions(face, edge)
+    value = face.Surface.value
+    for side, distances in enumerate(_distances(value, trace) for trace in topology.edge_traces(face, edge, fractions)):
+        k = int(distances.argmax())
+        around = np.linspace(fractions[max(k - 1, 0)], fractions[min(k + 1, len(fractions) - 1)], _AROUND_LARGEST)
+        finer = _distances(value, topology.edge_traces(face, edge, around)[side])
+        yield float(max(distances[k], finer.max()))
 
 
-def _fractions(edge: Part.Edge) -> Array:
-    """Where along an edge to look, 0…1: evenly, and inside every span of its curve."""
-    uniform = np.linspace(0.0, 1.0, _UNIFORM_SAMPLES)
-    if not hasattr(edge.Curve, "getKnots"):
-        return uniform
+def _distances(value: Callable[[float, float], FreeCAD.Vector], trace: topology.EdgeTrace) -> Array:
+    on_face = np.array([tuple(value(u, v)) for u, v in trace.uv.tolist()])
+    return np.linalg.norm(on_face - trace.points, axis=1)
+
+
+def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
+    """Where along an edge to look, 0…1: evenly, and inside every span of its curve and of its pcurve on the face."""
     first, last = edge.ParameterRange
-    knots = np.unique((np.array(edge.Curve.getKnots()) - first) / (last - first))
-    knots = np.concatenate([[0.0], knots[(knots > 0.0) & (knots < 1.0)], [1.0]])
-    inner = knots[:-1, None] + np.diff(knots)[:, None] * (np.arange(_SAMPLES_PER_SPAN) + 0.5) / _SAMPLES_PER_SPAN
-    return np.unique(np.concatenate([uniform, knots, inner.ravel()]))
+    pcurve = face.curveOnSurface(edge)
+    knots = [np.array(curve.getKnots()) for curve in (edge.Curve, pcurve[0] if pcurve else None)
+             if hasattr(curve, "getKnots")]
+    breaks = np.unique(np.clip((np.concatenate([[first, last], *knots]) - first) / (last - first), 0.0, 1.0))
+    inner = breaks[:-1, None] + np.diff(breaks)[:, None] * (np.arange(_SAMPLES_PER_SPAN) + 0.5) / _SAMPLES_PER_SPAN
+    return np.unique(np.concatenate([np.linspace(0.0, 1.0, _UNIFORM_SAMPLES), breaks, inner.ravel()]))
 
 
 def boolean_checks(shapes: tuple[Part.Shape, ...], limit: float) -> tuple[int | None, ...]:
