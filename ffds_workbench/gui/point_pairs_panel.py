@@ -69,6 +69,9 @@ class PointPairsPanel:
     def _picked_at(self, document: str, name: str, place: Point) -> None:
         if not self._watching or self._worker is not None:
             return
+        if self._is_gone():
+            self._close()
+            return
         Gui.Selection.clearSelection()
         hit = {self._scan.Name: "scan", self._part.Name: "part"}.get(name)
         self._message.setText("")
@@ -80,6 +83,13 @@ class PointPairsPanel:
             self._picked[hit].append(place)
             self._order.append(hit)
         self._show()
+
+    def _is_gone(self) -> bool:
+        """Whether the part or the scan was deleted, or their document closed, while the panel was open."""
+        try:
+            return not (self._scan.Name and self._part.Name)
+        except ReferenceError:
+            return True
 
     def _take_back(self) -> None:
         if self._order:
@@ -109,6 +119,8 @@ class PointPairsPanel:
         """OK: align in the background, then move the scan in one undo step and close."""
         if self._worker is not None:
             return False
+        if self._is_gone():
+            return self.reject()
         try:
             work = prepare(self._part, self._scan, *self._arguments())
         except FfdsError as refusal:
