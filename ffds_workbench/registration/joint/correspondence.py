@@ -16,6 +16,8 @@ from .lattice import Index, Lattices
 from .raster import Jet, Places, normals
 
 _WITHIN_CELL = 0.75
+_FEW = 0.002
+"""Share of the points up to which those on the wrong side are left out rather than matched again."""
 
 
 @dataclass(frozen=True)
@@ -78,11 +80,17 @@ def make_frames(lattices: Lattices, cells: Places, jet: Jet, margin: Array, dist
                   distance[span, place] > margin[span])
 
 
-def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None) -> Correspondence:
-    """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since."""
+def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None,
+               facing: Array | None = None) -> Correspondence:
+    """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since.
+
+    ``facing`` (n, 3) are outward normals of the points, zero where unknown: a point keeps to cells of its own side.
+    """
     if nearest is None:
         tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
         nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
+        if facing is not None:
+            nearest = _on_own_side(points, facing, frames, nearest, gate)
     point = np.flatnonzero(nearest < len(frames.position))
     row = nearest[point]
     offset = points[point] - frames.position[row]
@@ -93,6 +101,21 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     good = (frames.allowed[row] & (np.abs(height) < gate)
             & (np.abs(step) < _WITHIN_CELL * frames.size[row]).all(axis=1))
     return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
+
+
+def _on_own_side(points: Array, facing: Array, frames: Frames, nearest: Index, gate: float) -> Index:
+    """``nearest`` with the points that face away from their cell matched again, by place and normal together."""
+    none = len(frames.position)
+    cosine = np.einsum("nx,nx->n", facing, np.append(frames.normal, np.zeros((1, 3)), axis=0)[nearest])
+    wrong = np.flatnonzero(cosine < 0)
+    result = nearest.copy()
+    result[wrong] = none
+    if len(wrong) > _FEW * len(points):
+        # Opposite sides are 4 gates apart, farther than anything is looked for.
+        tree = cKDTree(np.hstack([frames.position, 2 * gate * frames.normal]), balanced_tree=False, compact_nodes=False)
+        result[wrong] = tree.query(np.hstack([points[wrong], 2 * gate * facing[wrong]]),
+                                   distance_upper_bound=2 * gate, workers=-1)[1]
+    return result
 
 
 def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:

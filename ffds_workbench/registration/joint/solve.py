@@ -24,6 +24,7 @@ from .problem import Problem, make_problem
 from .refinement import finer_faces, transfer
 from .result import JointRegistration
 from .settings import JointSettings, Stage, stages
+from .sides import facing
 from .state import State, start
 from .summary import refuse_bad, summarise
 from .system import solve
@@ -55,6 +56,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     report = progress or (lambda stage, share: None)
     problem = make_problem(part, scan, settings, {})
     state = start(problem)
+    state = replace(state, facing=facing(problem, state.reach))
     steps = stages(settings.schedule, state.reach)
     for number, stage in enumerate(steps):
         report("joint solve", number / len(steps))
@@ -90,7 +92,8 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     gate = max(stage.gate, 4 * problem.statistics.noise)
-    found = correspond(points, frames, gate, state.nearest if state.last_step < _HARDLY_MOVES else None)
+    found = correspond(points, frames, gate, state.nearest if state.last_step < _HARDLY_MOVES else None,
+                       None if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     cell_values = tukey_means if stage.all_points else medians

@@ -14,8 +14,9 @@ from .lattice import Index
 from .problem import Problem
 from .values import CellValues, nothing
 
-_TYPICAL = 0.75
-"""Quantile of the distances from the nominal part that tells how far the part has moved."""
+_TYPICAL, _SEEN = 0.75, 0.4
+"""Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
+the scan shows the part, or, where a table fills it, some of the part is seen."""
 _REACH = 1.5
 _LEAST_REACH = 3.0
 
@@ -31,6 +32,7 @@ class State:
     reach : largest gate in mm, from how far the scan lies from the nominal part
     isometry : (spans,) weight of the strain per mm²
     values : of the last iteration
+    facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     thickness : multiplies the weight of the sheets' thickness
     strain : rms strain found on observed faces
     near : scan points near the edges, once they are needed
@@ -45,6 +47,7 @@ class State:
     reach: float
     isometry: Array
     values: CellValues
+    facing: Array | None = None
     thickness: float = 1.0
     strain: float = 0.0
     near: Array = field(default_factory=lambda: np.zeros((0, 3)))
@@ -69,6 +72,9 @@ def start(problem: Problem) -> State:
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
                            "check the unit of the scan and align it first.")
+    if typical > _LEAST_REACH / _REACH:
+        back = cKDTree(problem.sample).query(position, workers=-1)[0]
+        typical = min(typical, float(np.quantile(back, _SEEN)))
     faces = len(problem.part.faces)
     noise = np.full(faces, problem.statistics.noise)
     return State(np.zeros((problem.lattices.count, 3)), noise,

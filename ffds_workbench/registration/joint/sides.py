@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which side of a thin part a scan point shows: a sheet that moved by its own thickness lies where its far side was.
+
+Neighbouring scan points show the same side, so one sign is wanted per connected piece of the scan; the piece as a whole
+tells it, since no part of a sheet moves without its neighbours.
+"""
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..rigid.sketch import Sketch, sketch_of
+from ..splines import Array
+from .problem import Problem
+from .raster import normals
+
+_POINTS = 4000
+_THICK = 3.0
+"""Sheets thicker than this many times the expected displacement are not taken for their far side."""
+_ROUGH = 8.0
+"""Noise above the thickness over this hides which side is which."""
+_SURE = 0.85
+"""A piece has a side where its points lie closer to the part by this factor than with the other side."""
+_FEWER, _LOST = 0.5, 0.004
+"""Likewise for the count of points that find nothing on the part, each raised by that share of all."""
+_FEWEST = 100
+_NEAR = 3.0
+"""A scan point takes the normal of a point of the sketch within this many mean spacings."""
+
+
+def facing(problem: Problem, reach: float) -> Array | None:
+    """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
+
+    ``reach`` is how far the scan may lie from the nominal part, in mm. None where no sheet is so thin that its
+    sides could be mixed up, or the noise hides them.
+    """
+    sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
+    if not sheets or min(sheets) > _THICK * reach or problem.statistics.noise > min(sheets) / _ROUGH:
+        return None
+    inside = problem.cells.inside
+    place = problem.cells.nominal.position[inside]
+    normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
+    near = cKDTree(place).query(problem.sample, distance_upper_bound=reach, workers=-1)[0]
+    if np.isfinite(near).sum() < _FEWEST:
+        return None
+    sketch = sketch_of(problem.sample[np.isfinite(near)], np.random.default_rng(problem.settings.seed), _POINTS)
+    outward = _signs(place, normal, sketch, 2 * reach)[sketch.piece, None] * sketch.normals
+    distance, near = cKDTree(sketch.points).query(problem.sample, workers=-1)
+    known = distance < _NEAR * np.median(distance)
+    result = np.zeros_like(problem.sample)
+    result[known] = outward[near[known]]
+    return result
+
+
+def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> Array:
+    """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
+
+    With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
+    """
+    tree = cKDTree(np.hstack([place, most * normal]), balanced_tree=False, compact_nodes=False)
+    both = [tree.query(np.hstack([sketch.points, sign * most * sketch.normals]), distance_upper_bound=most,
+                       workers=-1)[0] for sign in (1.0, -1.0)]
+    lost, distance = ([np.bincount(sketch.piece, weights=value(found)) for found in both]
+                      for value in (np.isinf, lambda found: np.minimum(found, most)))
+    few = _LOST * np.bincount(sketch.piece)
+    return _less(lost[0] + few, lost[1] + few, _FEWER, _less(distance[0], distance[1], _SURE, np.zeros(len(few))))
+
+
+def _less(first: Array, second: Array, factor: float, otherwise: Array) -> Array:
+    """+1 where the first is less by that factor, −1 where the second is, else what is given."""
+    return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, otherwise))
