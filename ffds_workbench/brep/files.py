@@ -113,9 +113,14 @@ def _placed_shape(item: object) -> Part.Shape:
     """The object's shape in the document's coordinates."""
     shape = Part.getShape(item).copy()
     if not shape.isNull():
-        outer = item.getGlobalPlacement().multiply(item.Placement.inverse())
-        shape.Placement = outer.multiply(shape.Placement)
+        shape.Placement = outer_placement(item).multiply(shape.Placement)
     return shape
+
+
+def outer_placement(item: object) -> FreeCAD.Placement:
+    """From the coordinates of what holds a document object to the document's; also of a link, which does not know it."""
+    holder = item.getParentGeoFeatureGroup()
+    return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
 
 
 def _read_document(path: Path, label: str | None) -> Model:

@@ -65,8 +65,7 @@ def read_source(item: Any) -> Source:
     item = standing_for(item)
     shape = Part.getShape(item).copy()
     placement = shape.Placement
-    outer = item.getGlobalPlacement().multiply(item.Placement.inverse())
-    matrix = np.array(outer.multiply(placement).toMatrix().A).reshape(4, 4)
+    matrix = np.array(files.outer_placement(item).multiply(placement).toMatrix().A).reshape(4, 4)
     if abs(abs(np.linalg.det(matrix[:3, :3])) - 1.0) > 1e-6:
         raise InputError(f"{item.Label} is scaled by its placement: make a simple copy of it first.")
     shape.Placement = FreeCAD.Placement()

@@ -114,6 +114,21 @@ def test_a_part_in_a_moved_group_gets_its_as_built_one_beside_it(document):
     assert height_at_middle(own) == pytest.approx(20 - 6, abs=NOISE)
 
 
+def test_a_link_is_a_part_of_its_own(document):
+    plate, scan = add_plate(document)
+    link = document.addObject("App::Link", "Link")
+    link.LinkedObject = plate
+    link.Placement = FreeCAD.Placement(FreeCAD.Vector(0, 0, 200), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 30))
+    document.recompute()
+    standing = np.array(link.Placement.toMatrix().A).reshape(4, 4)
+    scans.set_points(scan, plate_scan(1.0) @ standing[:3, :3].T + standing[:3, 3])
+    item = actions.make_as_built(link, scan, faces=["Face6"])
+    assert (item.Placement.Base - link.Placement.Base).Length < 1e-9 and plate.Visibility
+    own = item.Shape.copy()
+    own.Placement = FreeCAD.Placement()
+    assert height_at_middle(own) == pytest.approx(20 - 6, abs=NOISE)
+
+
 def test_a_body_stands_for_its_tip(document):
     pytest.importorskip("PartDesign", reason="FreeCAD's own Python modules are on the path inside FreeCAD only")
     body = document.addObject("PartDesign::Body", "Body")
