@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..splines import Array
 from .motions import apply, step
@@ -53,18 +54,31 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
             if near.sum() < 12:
                 return pose
             moved, nearest = moved[near], nearest[near]
-            height, normal = target.heights(moved, nearest)
-            beyond, outwards = target.rims.overshoot(moved, target.samples.face[nearest], gate)
-            limit = np.clip(_SETTLE * float(np.quantile(np.abs(height), _MOST)), 1e-3 * gate, gate)
-            out = np.flatnonzero(beyond > 0)
-            weight = np.concatenate([tukey(height, limit), tukey(beyond[out], gate)])
-            update = gauss_newton(np.concatenate([moved, moved[out]]) - target.centre,
-                                  np.concatenate([normal, outwards[out]]),
-                                  np.concatenate([height, beyond[out]]), weight, target.size)
+            limit = np.clip(_SETTLE * float(np.quantile(np.abs(target.heights(moved, nearest)[0]), _MOST)),
+                            1e-3 * gate, gate)
+            update = fit_step(target, moved, nearest, limit, gate)
             pose = step(update, target.centre) @ pose
             if np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2 < _STILL * target.size:
                 break
     return pose
+
+
+def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], cutoff: float, gate: float) -> Array:
+    """Twist (6,) by which matched points come to lie on the faces and inside their rims.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates
+    nearest : (n,) samples they are matched with
+    cutoff, gate : of the weights of heights, and of what sticks out beyond a rim, in mm
+    """
+    height, normal = target.heights(points, nearest)
+    beyond, outwards = target.rims.overshoot(points, target.samples.face[nearest], gate)
+    out = np.flatnonzero(beyond > 0)
+    weight = np.concatenate([tukey(height, cutoff), tukey(beyond[out], gate)])
+    return gauss_newton(np.concatenate([points, points[out]]) - target.centre,
+                        np.concatenate([normal, outwards[out]]), np.concatenate([height, beyond[out]]), weight,
+                        target.size)
 
 
 def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: float) -> Array:

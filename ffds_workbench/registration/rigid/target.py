@@ -26,7 +26,7 @@ _VIEWS = 64
 _AREA_GRID = 40
 _TURN = 0.35
 """Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
-_TURN_LENGTH = 0.06
+_TURN_LENGTH = 0.04
 """A normal turned by 1 rad counts as a distance of this share of the part's size in the search for the nearest sample."""
 _FACING = 0.3
 """Cosine below which a sample does not face the way a point's normal does."""

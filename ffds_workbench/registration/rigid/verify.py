@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .fine import tukey
 from .motions import apply
 from .sketch import Plane, Sketch
+from .smooth import ROUNDS, match
 from .target import Target
 
 _NORMALS_AGREE = 0.6
@@ -52,6 +52,11 @@ def is_rough(target: Target, sketch: Sketch) -> bool:
     """Whether the noise is so large that normals and the sides of sheets are guesses."""
     return sketch.noise > _ROUGH * target.size
 
+    @property
+    def certainty(self) -> float:
+        """Mean of the score and of what is explained, 1 is perfect: what tells the part from another one."""
+        return 0.5 * (self.score + self.explained)
+
 
 def facing_normals(target: Target, points: Array) -> Array:
     """Normals of the part below points (n, 3) in model coordinates: what takes the place of normals that are guesses."""
@@ -70,18 +75,15 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     """
     size = target.size
     moved = apply(pose, sketch.points)
-    apart, nearest = target.nearest(moved, normals, 2.0 * _NEAR * size)
-    height, normal = target.heights(moved, nearest)
-    beside = _beside(target, moved, nearest, height, normal)
-    agree = np.isfinite(apart) & (np.einsum("ni,ni->n", normals, normal) > _NORMALS_AGREE)
-    on_part = agree & (np.abs(height) < _NEAR * size) & (beside < _NEAR * size)
     # under large noise a smooth deformation could not be told from a wrong pose
-    left = height if is_rough(target, sketch) else height - _smooth_part(moved, normal, height, on_part, size)
+    found = match(target, moved, normals, 2.0 * _NEAR * size, 0 if is_rough(target, sketch) else ROUNDS)
+    beside = _beside(target, found.points, found.nearest, found.height, found.normal)
+    agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
     cap = max(0.008 * size, 4.0 * sketch.noise)
-    distance = np.where(agree, np.hypot(left, beside), cap + sketch.noise)
+    distance = np.where(agree, np.hypot(found.height, beside), cap + sketch.noise)
     explained = agree & (distance < cap)
     misfit = float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
-    coverage, missing = _views(target, moved[explained], normals[explained], sketch)
+    coverage, missing = _views(target, found.points[explained], normals[explained], sketch)
     pierced = 0.0
     if table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
@@ -95,25 +97,6 @@ def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Ar
     gap = np.maximum(np.linalg.norm(along, axis=1) - 1.5 * target.spacing, 0.0)
     beyond = target.rims.overshoot(points, target.samples.face[nearest], _NEAR * target.size)[0]
     return np.maximum(gap, beyond)
-
-
-def _smooth_part(points: Array, normal: Array, height: Array, chosen: NDArray[np.bool_], size: float) -> Array:
-    """Heights that a quadratic displacement of space explains, robustly fitted to the chosen points; (n,)."""
-    x = (points - points.mean(axis=0)) / (0.5 * size)
-    monomials = np.stack([np.ones(len(x)), *x.T, x[:, 0] ** 2, x[:, 1] ** 2, x[:, 2] ** 2,
-                          x[:, 0] * x[:, 1], x[:, 0] * x[:, 2], x[:, 1] * x[:, 2]], axis=1)
-    rows = (monomials[:, :, None] * normal[:, None, :]).reshape(len(x), -1)
-    smooth = np.zeros(len(x))
-    if chosen.sum() < 2 * rows.shape[1]:
-        return smooth
-    for _ in range(4):
-        left = height - smooth
-        spread = 1.4826 * float(np.median(np.abs(left[chosen])))
-        weight = chosen * tukey(left, max(4.0 * spread, 1e-6 * size))
-        matrix = (rows * weight[:, None]).T @ rows
-        matrix += np.eye(len(matrix)) * (1e-2 * weight.sum() / len(matrix) + 1e-12)
-        smooth = rows @ np.linalg.solve(matrix, rows.T @ (weight * height))
-    return smooth
 
 
 def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tuple[float, float]:

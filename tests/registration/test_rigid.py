@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The rigid alignment: scans of generated parts with known poses.
+
+A pose counts as right within 1 mm and 0.5°, the project's own line for a failed alignment. Truth is the motion that the
+test itself applied to the simulated scan.
+"""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import FreeCAD
+import numpy as np
+import Part
+import pytest
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from ffds_workbench import api
+from ffds_workbench.brep import workpiece
+from ffds_workbench.brep.simulation import target_of as sensor_target_of
+from ffds_workbench.errors import RefusedError
+from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
+from ffds_workbench.registration.rigid.motions import angle, apply, motion, shift
+from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
+from ffds_workbench.registration.rigid.symmetry import symmetry_of
+from ffds_workbench.registration.rigid.units import plausible_scales
+from ffds_workbench.scan.sensor import SensorSettings, View, simulate
+
+FAR, TURNED = 1.0, np.deg2rad(0.5)
+
+
+def geometry(shape: Part.Shape) -> list:
+    part = workpiece.read(shape)
+    return [part.geometry(k) for k in range(len(part.faces))]
+
+
+def bracket_shape() -> Part.Shape:
+    """An L without any symmetry: two legs of unequal length, three holes."""
+    shape = Part.makeBox(80, 60, 3).fuse(Part.makeBox(3, 60, 45)).removeSplitter()
+    for x, y in ((55, 15), (30, 42)):
+        shape = shape.cut(Part.makeCylinder(5, 10, FreeCAD.Vector(x, y, -3)))
+    return shape.cut(Part.makeCylinder(7, 10, FreeCAD.Vector(-3, 40, 28), FreeCAD.Vector(1, 0, 0)))
+
+
+def channel_shape() -> Part.Shape:
+    """A U that a half turn about z maps onto itself."""
+    return Part.makeBox(100, 40, 25, FreeCAD.Vector(-50, -20, 0)).cut(
+        Part.makeBox(100, 34, 25, FreeCAD.Vector(-50, -17, 3)))
+
+
+def scanned(shape: Part.Shape, seed: int = 1) -> np.ndarray:
+    views = (View((0.5, 0.3, 1.0)), View((0.9, -0.3, 0.6)))
+    return simulate(sensor_target_of(shape), SensorSettings(spacing=0.5, views=views, seed=seed)).points
+
+
+def anywhere(scan: np.ndarray, seed: int) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    return motion(Rotation.random(random_state=seed).as_matrix(), rng.uniform(-400, 400, 3))
+
+
+def nearby(scan: np.ndarray, seed: int) -> np.ndarray:
+    """30° and 50 mm away."""
+    axis, way = (v / np.linalg.norm(v) for v in np.random.default_rng(seed).normal(size=(2, 3)))
+    rotation = Rotation.from_rotvec(np.deg2rad(30) * axis).as_matrix()
+    middle = scan.mean(axis=0)
+    return motion(rotation, middle - rotation @ middle + 50 * way)
+
+
+def is_right(pose: np.ndarray, moved: np.ndarray, centre: np.ndarray) -> bool:
+    found = pose @ moved
+    return bool(shift(found, np.eye(4), centre) < FAR and angle(found, np.eye(4)) < TURNED)
+
+
+@pytest.fixture(scope="module")
+def bracket():
+    shape = bracket_shape()
+    return target_of(geometry(shape)), scanned(shape)
+
+
+@pytest.fixture(scope="module")
+def channel():
+    shape = channel_shape()
+    return target_of(geometry(shape)), scanned(shape)
+
+
+def test_samples_lie_on_the_shape_and_heights_follow_the_curvature():
+    """A cylinder of radius 10: the height of a point is its distance from the axis less 10, to the third order."""
+    target = target_of(geometry(Part.makeCylinder(10, 40)))
+    wall = np.abs(target.samples.normals[:, 2]) < 0.5
+    assert np.abs(np.linalg.norm(target.samples.points[wall, :2], axis=1) - 10).max() < 1e-5
+    rng = np.random.default_rng(0)
+    turn, radius = rng.uniform(0, 2 * np.pi, 200), rng.uniform(9.5, 10.5, 200)
+    points = np.stack([radius * np.cos(turn), radius * np.sin(turn), rng.uniform(10, 30, 200)], axis=1)
+    height, normal = target.heights(points, target.tree.query(points)[1])
+    assert np.abs(height - (radius - 10)).max() < 2e-3          # spacing³ / R² is 1e-3 mm
+    assert np.abs(normal[:, 2]).max() < 1e-6
+
+
+def test_faces_that_nothing_outside_sees_are_left_out():
+    """Two boxes in contact: no sample lies where they touch."""
+    shape = Part.makeCompound([Part.makeBox(40, 40, 10), Part.makeBox(40, 40, 10, FreeCAD.Vector(0, 0, 10))])
+    points = target_of(geometry(shape)).samples.points
+    inside = (np.abs(points[:, :2] - 20) < 15).all(axis=1)
+    assert not (np.abs(points[inside, 2] - 10) < 1e-3).any()
+
+
+def test_rims_are_where_the_surface_ends():
+    """All edges of a box are rims; the seam of a cylinder is none."""
+    rims = target_of(geometry(Part.makeCylinder(10, 40))).rims
+    at_ends = np.minimum(np.abs(rims.points[:, 2]), np.abs(rims.points[:, 2] - 40)) < 1e-6
+    assert at_ends.all() and len(rims.points) > 100
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("mode", ["fine", "global"])
+def test_finds_the_pose(bracket, mode, seed):
+    target, scan = bracket
+    moved = (nearby if mode == "fine" else anywhere)(scan, seed)
+    found = align(target, apply(moved, scan), mode, seed=seed)
+    assert found.verdict == OK and is_right(found.T_model_scan, moved, target.centre)
+    assert found.fitness > 0.99 and found.confidence > 0.5
+
+
+def test_bias_on_an_undeformed_part(bracket):
+    """The line is 0.02 mm; noise of 0.13 mm over some thousand points leaves a few micrometres."""
+    target, scan = bracket
+    moved = anywhere(scan, 5)
+    found = align(target, apply(moved, scan), "global")
+    assert shift(found.T_model_scan @ moved, np.eye(4), target.centre) < 0.02
+
+
+def test_cropped_scan_with_clutter(bracket):
+    """A quarter of the scan missing and 5 % of stray points."""
+    target, scan = bracket
+    part = scan[scan[:, 1] < np.quantile(scan[:, 1], 0.75)]
+    rng = np.random.default_rng(0)
+    stray = rng.uniform(part.min(axis=0), part.max(axis=0), (len(part) // 20, 3))
+    moved = anywhere(part, 7)
+    found = align(target, apply(moved, np.concatenate([part, stray])), "global")
+    assert found.verdict == OK and is_right(found.T_model_scan, moved, target.centre)
+
+
+def test_table_with_most_of_the_points(bracket):
+    target, scan = bracket
+    rng = np.random.default_rng(0)
+    place = rng.uniform(-60, 140, (int(1.5 * len(scan)), 2))
+    hidden = cKDTree(target.samples.points[:, :2]).query(place)[0] < 2.0
+    table = np.column_stack([place, rng.normal(0, 0.13, len(place))])[~hidden]
+    moved = anywhere(scan, 3)
+    found = align(target, apply(moved, np.concatenate([scan, table])), "global")
+    assert found.table and is_right(found.T_model_scan, moved, target.centre)
+
+
+def test_no_table_where_there_is_none(bracket):
+    target, scan = bracket
+    rng = np.random.default_rng(0)
+    assert find_table(sketch_of(scan, rng), target.shadow, rng) is None
+
+
+@pytest.mark.parametrize("mode", ["fine", "global"])
+def test_symmetric_part_is_ambiguous_and_every_pose_is_listed(channel, mode):
+    target, scan = channel
+    moved = (nearby if mode == "fine" else anywhere)(scan, 2)
+    found = align(target, apply(moved, scan), mode)
+    assert found.verdict == AMBIGUOUS and "180°" in found.symmetry and len(found.poses) == 2
+    assert any(is_right(pose.T_model_scan, moved, target.centre) for pose in found.poses)
+
+
+def test_symmetries():
+    box = symmetry_of(target_of(geometry(Part.makeBox(60, 40, 20))))
+    assert len(box.motions) == 3 and box.exact.all()             # three half turns
+    assert symmetry_of(target_of(geometry(Part.makeCylinder(10, 40)))).axis is not None
+    assert not symmetry_of(target_of(geometry(bracket_shape()))).exact.any()
+
+
+@pytest.mark.parametrize(("scale", "unit"), [(1000.0, "m"), (10.0, "cm"), (25.4, "in"), (100.0, "dm")])
+def test_unit_is_recognised(bracket, scale, unit):
+    target, scan = bracket
+    assert scale in plausible_scales(scan / scale, target.size)
+    found = align(target, scan / scale, "global")
+    assert found.unit == unit and found.verdict == OK
+
+
+def test_deformed_sheet_keeps_its_sides(bracket):
+    """Bent by 5 mm, more than its thickness: within 1 mm and 1° of where the undeformed bracket was."""
+    target, scan = bracket
+    bent = scan + np.outer(5.0 * ((scan[:, 1] - 30) / 30) ** 2 - 5.0 / 3, [0.0, 0.0, 1.0])
+    moved = anywhere(scan, 4)
+    found = align(target, apply(moved, bent), "global")
+    assert found.verdict == OK
+    assert shift(found.T_model_scan @ moved, np.eye(4), target.centre) < 1.0
+    assert angle(found.T_model_scan @ moved, np.eye(4)) < np.deg2rad(1.0)
+
+
+def test_another_part_fails(bracket, channel):
+    assert align(channel[0], apply(anywhere(bracket[1], 1), bracket[1]), "global").verdict == FAILED
+    assert align(bracket[0], apply(anywhere(channel[1], 1), channel[1]), "global").verdict == FAILED
+
+
+def test_api_refuses_another_part(channel):
+    with pytest.raises(RefusedError, match="could not be aligned"):
+        api.align_scan(bracket_shape(), channel[1], "global")
+
+
+def test_command_writes_scan_and_pose(ffds, tmp_path: Path, bracket):
+    target, scan = bracket
+    bracket_shape().exportStep(str(tmp_path / "part.step"))
+    np.savetxt(tmp_path / "scan.xyz", apply(anywhere(scan, 6), scan)[::5] / 1000)
+    process = ffds("align", "part.step", "scan.xyz", "--out", "aligned.ply", "--pose", "pose.json")
+    assert process.returncode == 0, process.stderr
+    pose = json.loads((tmp_path / "pose.json").read_text())
+    assert pose["verdict"] == "ok" and pose["unit"] == "m"
+    aligned = api.read_scan(tmp_path / "aligned.ply").points
+    assert np.abs(aligned - scan[::5]).max() < 1.0
+
+
+def test_command_writes_nothing_when_it_fails(ffds, tmp_path: Path, channel):
+    bracket_shape().exportStep(str(tmp_path / "part.step"))
+    np.savetxt(tmp_path / "scan.xyz", channel[1][::5])
+    process = ffds("align", "part.step", "scan.xyz", "--out", "aligned.ply", "--pose", "pose.json")
+    assert process.returncode == 3 and len(process.stderr.strip().splitlines()) == 1
+    assert not (tmp_path / "aligned.ply").exists() and not (tmp_path / "pose.json").exists()
+
+
+def test_real_weld_part(shared_data: Path):
+    """Raw scan in metres and in the robot's frame, noise 1.6 mm: no worse than the pose that its makers found."""
+    folder = shared_data / "weld_pipe_on_angle"
+    faces = geometry(api.read_model(folder / "nominal.step").shape)
+    raw = api.read_scan(folder / "scan_robot_laser_60deg.pcd").points
+    known = np.array(json.loads((folder / "pose.json").read_text())["T_model_scan_mm"])
+    found = align(target_of(faces), raw, "global")
+    dense = cKDTree(target_of(faces, 250_000).samples.points)
+    (fitness, rmse), (known_fitness, known_rmse) = (
+        (float((d < 4).mean()), float(np.sqrt((d[d < 4] ** 2).mean())))
+        for d in (dense.query(apply(pose, 1000 * raw))[0] for pose in (found.T_model_scan, known)))
+    assert found.unit == "m" and found.verdict == OK
+    assert fitness >= known_fitness and rmse <= 1.05 * known_rmse
