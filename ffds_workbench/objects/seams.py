@@ -183,7 +183,10 @@ def export_program(item: Any, path: str) -> None:
 def add_trajectories(item: Any) -> list[Any]:
     """FreeCAD's own robot trajectories of seams, one object each, in their document."""
     plan, robot = _plan(item), robot_of(item)
-    return add_moves(item.Document, [moves(seam, robot) for seam in plan.seams], robot)
+    added = add_moves(item.Document, [moves(seam, robot) for seam in plan.seams], robot)
+    for trajectory in added:
+        trajectory.purgeTouched()
+    return added
 
 
 def robot_of(item: Any) -> api.RobotSettings:

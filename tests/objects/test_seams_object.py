@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The seams object without a GUI: it follows its part, survives a file, writes programs, and refuses without a trace.
 
-The weldment is a pipe of radius 20 on a plate; its as-built state is moved as a whole, so every figure is known exactly.
+The weldment is a pipe of radius 20 on a plate; its as-built state is moved as a whole, so all figures are known.
 """
 from __future__ import annotations
 
