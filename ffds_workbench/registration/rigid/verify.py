@@ -47,15 +47,15 @@ class Evidence:
         """Rank among poses, larger is better, 1 is perfect."""
         return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced
 
-
-def is_rough(target: Target, sketch: Sketch) -> bool:
-    """Whether the noise is so large that normals and the sides of sheets are guesses."""
-    return sketch.noise > _ROUGH * target.size
-
     @property
     def certainty(self) -> float:
         """Mean of the score and of what is explained, 1 is perfect: what tells the part from another one."""
         return 0.5 * (self.score + self.explained)
+
+
+def is_rough(target: Target, sketch: Sketch) -> bool:
+    """Whether the noise is so large that normals and the sides of sheets are guesses."""
+    return sketch.noise > _ROUGH * target.size
 
 
 def facing_normals(target: Target, points: Array) -> Array:
