@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +68,8 @@ class Seams(Feature):
         Property("Velocity", "App::PropertySpeed", "Robot", "Along the seam", _ROBOT.velocity),
         Property("Approach", "App::PropertyLength", "Robot", "Distance to approach from and retract to",
                  _ROBOT.approach),
+        Property("Holders", "App::PropertyLinkListGlobal", "Seams", "What moves the parts when it moves", None,
+                 READ_ONLY | HIDDEN),
         Property("Verdicts", "App::PropertyStringList", "Result", "Seam by seam: its edges, pass or fail", None,
                  READ_ONLY),
         Property("Notes", "App::PropertyStringList", "Result", "What to know before welding", None, READ_ONLY),
@@ -208,6 +210,7 @@ def _nominal_of(part: Any, nominal: Any) -> Any:
 def _apply(obj: Any, wishes: SeamWishes) -> None:
     settings = wishes.settings
     obj.Edges = [(obj.AsBuilt, wishes.edges)] if wishes.edges else []
+    obj.Holders = list(dict.fromkeys([*_holders(obj.AsBuilt), *_holders(obj.Nominal)]))
     obj.Tolerance, obj.Chain, obj.Reverse = wishes.tolerance or 0.0, wishes.chain, settings.reverse
     obj.StartHere = settings.start is not None
     obj.Start = FreeCAD.Vector(*(settings.start or (0.0, 0.0, 0.0)))
@@ -215,6 +218,12 @@ def _apply(obj: Any, wishes: SeamWishes) -> None:
     obj.WorkAngle, obj.TravelAngle = math.degrees(settings.work_angle), math.degrees(settings.travel_angle)
     for name in _LIMITS:
         setattr(obj, _limit_property(name), getattr(wishes.limits, name))
+
+
+def _holders(part: Any) -> Iterator[Any]:
+    """The groups that a part lies in: seams stand in the document's coordinates and follow them too."""
+    while part is not None and (part := part.getParentGeoFeatureGroup()) is not None:
+        yield part
 
 
 def _line(points: Array) -> Part.Wire:

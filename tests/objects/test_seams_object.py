@@ -106,6 +106,18 @@ def test_an_as_built_part_brings_its_nominal_one_and_what_the_scan_saw(document)
     assert stations["z"].max() == pytest.approx(5 + np.exp(-20**2 / (2 * 12**2)), abs=0.05)
 
 
+def test_it_follows_the_group_that_holds_its_part(document):
+    part, group = add(document, "Pipe", pipe_on_plate()), document.addObject("App::Part", "Group")
+    group.addObject(part)
+    group.Placement.Base.x = 100
+    document.recompute()
+    item = actions.make_seams(part, edges=[foot(part.Shape)])
+    assert stations_of(item)["x"].max() == pytest.approx(120.0, abs=CHORD)
+    group.Placement.Base.x = 200
+    document.recompute()
+    assert stations_of(item)["x"].max() == pytest.approx(220.0, abs=CHORD)
+
+
 def test_start_direction_and_torch_are_properties(document):
     part = add(document, "Pipe", pipe_on_plate())
     item = actions.make_seams(part, edges=[foot(part.Shape)])
