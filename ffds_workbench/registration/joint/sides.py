@@ -7,10 +7,13 @@ tells it, since no part of a sheet moves without its neighbours.
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..rigid.sketch import Sketch, sketch_of
 from ..splines import Array
+from .lattice import Index
 from .problem import Problem
 from .raster import normals
 
@@ -23,7 +26,11 @@ _SURE = 0.85
 """A piece has a side where its points lie closer to the part by this factor than with the other side."""
 _FEWER, _LOST = 0.5, 0.004
 """Likewise for the count of points that find nothing on the part, each raised by that share of all."""
-_FEWEST = 100
+_FEWEST, _FEWEST_OF_PIECE = 100, 30
+_AGREED = 0.5
+"""Mean of the signs within a smooth piece from which they are trusted."""
+_NEIGHBOURS, _SMOOTH, _RISE = 9, 0.9, 0.35
+"""Neighbours that are tried, cosine of their normals, and sine of the step over their planes on a smooth surface."""
 _NEAR = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
@@ -44,7 +51,8 @@ def facing(problem: Problem, reach: float) -> Array | None:
     if np.isfinite(near).sum() < _FEWEST:
         return None
     sketch = sketch_of(problem.sample[np.isfinite(near)], np.random.default_rng(problem.settings.seed), _POINTS)
-    outward = _signs(place, normal, sketch, 2 * reach)[sketch.piece, None] * sketch.normals
+    linked = _signs(place, normal, sketch, 2 * reach)[sketch.piece]
+    outward = _one_sign_each(sketch, linked)[:, None] * sketch.normals
     distance, near = cKDTree(sketch.points).query(problem.sample, workers=-1)
     known = distance < _NEAR * np.median(distance)
     result = np.zeros_like(problem.sample)
@@ -69,3 +77,37 @@ def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> Array:
 def _less(first: Array, second: Array, factor: float, otherwise: Array) -> Array:
     """+1 where the first is less by that factor, −1 where the second is, else what is given."""
     return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, otherwise))
+
+
+def _one_sign_each(sketch: Sketch, signs: Array) -> Array:
+    """The signs (n,) of most points of every smooth piece for all of it: 0 where they contradict each other.
+
+    Signs carried around the edge of a thin sheet may go astray; across a smooth surface they do not.
+    """
+    piece, side = smooth_pieces(sketch.points, sketch.normals)
+    size = np.bincount(piece)
+    mean = np.bincount(piece, weights=signs * side) / np.maximum(size, 1)
+    trusted = (np.abs(mean) > _AGREED) & (size >= _FEWEST_OF_PIECE)
+    return np.where(trusted, np.sign(mean), 0.0)[piece] * side
+
+
+def smooth_pieces(points: Array, directions: Array) -> tuple[Index, Array]:
+    """Number of the smooth piece of every point, and ±1 that turns its normal (n, 3) to the piece's one side.
+
+    Every point is two nodes of a graph, one for each sign; a piece is two components of it, or a single one (and then
+    0 instead of ±1) where the surface has but one side.
+    """
+    count = len(points)
+    index = cKDTree(points).query(points, k=min(_NEIGHBOURS, count), workers=-1)[1]
+    start, end = np.repeat(np.arange(count), index.shape[1] - 1), index[:, 1:].ravel()
+    step = points[end] - points[start]
+    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+    cosine = np.einsum("nx,nx->n", directions[start], directions[end])
+    rise = np.maximum(*(np.abs(np.einsum("nx,nx->n", step, directions[k])) for k in (start, end)))
+    smooth = (np.abs(cosine) > _SMOOTH) & (rise < _RISE)
+    start, end, crossed = start[smooth], end[smooth], (cosine[smooth] < 0) * count
+    rows = np.concatenate([start, start + count])
+    columns = np.concatenate([end + crossed, (end + count + crossed) % (2 * count)])
+    graph = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(2 * count, 2 * count))
+    plus, minus = connected_components(graph, directed=False)[1].reshape(2, count)
+    return np.unique(np.minimum(plus, minus), return_inverse=True)[1], np.sign(minus - plus).astype(float)
