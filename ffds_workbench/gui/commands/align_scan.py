@@ -26,4 +26,5 @@ class AlignScan(Command):
         found = in_background("Aligning the scan", alignment.prepare(part, scan, "global"))
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
         if found.alignment.poses and found.alignment.confidence < 0.5:
-            tell(f"The alignment is not sure: {found.alignment.text}. Look at the scan, or undo and place it by hand.")
+            tell(f"The alignment is not sure: {found.alignment.text}. Look at the scan, or undo and align it by three "
+                 f"points.")
