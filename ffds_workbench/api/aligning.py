@@ -66,7 +66,7 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     scan : a `PointCloud`, or (n, 3) points in mm; a unit off by 1000, 100, 10 or 25.4 is recognised
     mode : "fine" from where the scan lies, within some 30°; "global" from anywhere
     progress : called with what is being done
-    start : (4, 4), a T_model_scan to start from instead of where the scan lies
+    start : (4, 4), a T_model_scan given by hand: the pose is sought close around it, whatever the mode
 
     Raises
     ------
@@ -82,7 +82,8 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
         part = workpiece.read(as_model(model).shape)
         target = target_of([part.geometry(index) for index in range(len(part.faces))])
     with watch.stage("align", "Aligning the scan"):
-        found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3], mode))
+        found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3],
+                                   mode if start is None else "local"))
     if found.verdict == FAILED:
         raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "
                            f"part, or leave other objects out.")

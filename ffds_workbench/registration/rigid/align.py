@@ -93,7 +93,8 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
     ----------
     target : the model, see ``target_of``
     scan : (n, 3) in mm, or in a unit that is to be recognised
-    mode : "fine" starts from the present pose and its centroid, "global" from anywhere
+    mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" looks close around the
+        present pose, and of poses that fit alike takes the nearest
     scales : factors to try on the scan's coordinates; by default those that its size allows
     seed : of the random choice of points
 
@@ -129,9 +130,14 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
         sketch = sketch_of(scan, generator)
     if len(sketch.points) < _FEWEST:
         return _no_answer(f"fewer than {_FEWEST} points of the scan belong together")
-    verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
-    verified += _search(target, sketch, table, _around(target, sketch, _best(verified, mode).pose), _LOCAL, generator)
-    best = _best(verified, mode)
+    if mode == "local":
+        verified = _search(target, sketch, table, _around(target, sketch, np.eye(4)), _LOCAL, generator)
+        best = _nearest(verified, sketch.points.mean(axis=0))
+    else:
+        verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
+        around = _around(target, sketch, _best(verified, mode).pose)
+        verified += _search(target, sketch, table, around, _LOCAL, generator)
+        best = _best(verified, mode)
     pose = _polish(target, sketch, best)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
     after = examine(target, sketch, pose, _turn(best, pose), table)
@@ -166,10 +172,20 @@ def _best(verified: Sequence[Verified], mode: str) -> Verified:
     best = max(verified, key=lambda v: v.evidence.score)
     if mode == "global":
         return best
-    level = best.evidence.score - _MARGIN * (1.0 - best.evidence.score)
-    alike = [v for v in verified if v.evidence.score >= level]
+    alike = _alike(verified)
     nearest = min(angle(v.pose, np.eye(4)) for v in alike)
     return max((v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN), key=lambda v: v.evidence.score)
+
+
+def _alike(verified: Sequence[Verified]) -> list[Verified]:
+    """The poses that fit as well as the best one."""
+    best = max(v.evidence.score for v in verified)
+    return [v for v in verified if v.evidence.score >= best - _MARGIN * (1.0 - best)]
+
+
+def _nearest(verified: Sequence[Verified], place: Array) -> Verified:
+    """Of the poses that fit alike, the one that moves ``place`` least: a start by hand also says which side is meant."""
+    return min(_alike(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))
 
 
 def _starts(target: Target, sketch: Sketch, mode: str) -> Array:
