@@ -16,13 +16,16 @@ import pytest
 from PySide2 import QtCore, QtTest, QtWidgets
 
 from ffds_workbench.gui.commands import COMMANDS
+from ffds_workbench.gui.commands.align_scan import AlignScan
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.export_as_built import ExportAsBuilt
 from ffds_workbench.gui.commands.import_scan import ImportScan
 from ffds_workbench.gui.commands.load_example import LoadExample
 from ffds_workbench.gui.commands.show_deviation import ShowDeviation
 from ffds_workbench.gui.commands.show_lattice import ShowLattice
 from ffds_workbench.gui.commands.simulate_scan import SimulateScan
+from ffds_workbench.objects.scans import scan_points
 
 TOLERANCE = 0.05
 
@@ -207,6 +210,41 @@ def test_a_recorded_session_replays_without_a_gui(hands, tmp_path):
     done = subprocess.run(["freecadcmd", "-c", code], capture_output=True, text=True, timeout=120)
     assert done.stdout.strip(), (macro.read_text(), done.stderr, done.returncode)
     assert float(done.stdout.strip().splitlines()[-1]) == pytest.approx(volume, rel=1e-9), done.stderr
+
+
+def test_a_scan_is_simulated_and_the_part_exported(hands, plate_document, tmp_path, monkeypatch):
+    part = plate_document.Plate
+    Gui.Selection.addSelection(part)
+    hands.answer(lambda dialog: dialog.accept())
+    hands.command(SimulateScan)
+    hands.until(lambda: len(plate_document.Objects) == 3, 20)
+    assert plate_document.UndoNames == ["Simulate a scan"]
+    scan = plate_document.Objects[-1]
+    points = scan_points(scan)
+    assert points[:, 0].max() < 61 and points[:, 2].min() > -1 and points[:, 2].max() < 6
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(part)
+    monkeypatch.setattr(QtWidgets.QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "out"), "STEP (*.step)"))
+    hands.command(ExportAsBuilt)
+    assert len(Part.read(str(tmp_path / "out.step")).Faces) == 6
+
+
+def test_a_scan_is_aligned_in_one_undo_step(hands):
+    hands.command(LoadExample)
+    document = FreeCAD.ActiveDocument
+    scan = document.Scan
+    lay = scan_points(scan)
+    scan.Placement = FreeCAD.Placement(FreeCAD.Vector(20, -10, 5), FreeCAD.Rotation(FreeCAD.Vector(1, 2, 3), 10))
+    away = scan_points(scan)
+    document.clearUndos()
+    Gui.Selection.addSelection(document.Bracket)
+    Gui.Selection.addSelection(scan)
+    hands.command(AlignScan)
+    hands.until(lambda: document.UndoNames == ["Align scan"], 60)
+    # The part is up to 2 mm out of shape: its rigid pose is known to about half of that.
+    assert abs(scan_points(scan) - lay).mean() < 1.0
+    document.undo()
+    assert abs(scan_points(scan) - away).max() < 1e-3
 
 
 @pytest.mark.skipif(not os.environ.get("FFDS_SCREENSHOTS"),
