@@ -173,7 +173,7 @@ def _best(verified: Sequence[Verified], mode: str) -> Verified:
     if mode == "global":
         return best
     alike = _alike(verified)
-    nearest = min(angle(v.pose, np.eye(4)) for v in alike)
+    nearest = min(float(angle(v.pose, np.eye(4))) for v in alike)
     return max((v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN), key=lambda v: v.evidence.score)
 
 
@@ -184,7 +184,7 @@ def _alike(verified: Sequence[Verified]) -> list[Verified]:
 
 
 def _nearest(verified: Sequence[Verified], place: Array) -> Verified:
-    """Of the poses that fit alike, the one that moves ``place`` least: a start by hand also says which side is meant."""
+    """Of the poses that fit alike, the one that moves ``place`` least: a start by hand says which side is meant."""
     return min(_alike(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))
 
 
@@ -238,7 +238,7 @@ def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, 
         chosen = generator.choice(len(sketch.points), min(stage.points, len(sketch.points)), replace=False)
         piece = np.where(sketch.piece[chosen] < pieces, sketch.piece[chosen], 0)
         probe = Probe(sketch.points[chosen], sketch.normals[chosen], piece, sided)
-        gates = size * np.geomspace(stage.widest, stage.closest, stage.steps)
+        gates = (size * np.geomspace(stage.widest, stage.closest, stage.steps)).tolist()
         candidates = improve(field, probe, candidates, gates)
         score = scores(field, probe, candidates, stage.width * size)
         if stage.turn:
