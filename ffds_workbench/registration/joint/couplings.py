@@ -104,7 +104,7 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     thickness_rows = pairs.back.matrix(count) - pairs.front.matrix(count)
     # One pair is one independent statement per square of the thickness; closer ones share it.
     thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
-                        / settings.thickness_sigma**2)
+                        / np.maximum(settings.thickness_sigma, pairs.give) ** 2)
     dihedral_rows = _dihedral_rows(edges, lattices)
     dihedral_weight = edges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)

@@ -19,6 +19,8 @@ _OBSERVED = 0.3
 _WALL = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 _OFF = 1e-3
+_FACES_OFF, _SIGNIFICANT = 2, 5.0
+"""Faces that must lie off the scan until isometry is dropped, and by how many standard deviations; one may be clutter."""
 
 
 def observed_strain(problem: Problem, state: State) -> float:
@@ -35,6 +37,15 @@ def observed_strain(problem: Problem, state: State) -> float:
     return float(np.sqrt((area[..., None] * strain**2).sum() / max(area.sum(), 1e-12)))
 
 
+def count_faces_off(problem: Problem, state: State) -> int:
+    """How many faces lie off the scan as a whole, by more than the noise: isometry keeps them from following it."""
+    values, face = state.values, problem.face_of_cell
+    weight, pull = (np.bincount(face, weights=x, minlength=len(problem.part.faces))
+                    for x in (values.weight, values.weight * values.height))
+    mean = pull / np.maximum(weight, 1e-12)
+    return int(((np.abs(mean) > problem.statistics.noise) & (np.abs(mean) * np.sqrt(weight) > _SIGNIFICANT)).sum())
+
+
 def judge_stretch(problem: Problem, state: State, stage: Stage) -> State:
     """The state with the weights of isometry and thickness, and the strain they were decided from.
 
@@ -44,18 +55,20 @@ def judge_stretch(problem: Problem, state: State, stage: Stage) -> State:
     if stage.soft and state.strain:
         return state
     strain = observed_strain(problem, state) if stage.soft else 0.0
+    off = stage.soft and count_faces_off(problem, state) >= _FACES_OFF
     stretched = {"on": 0.0, "off": 1.0}.get(settings.isometry)
     if stretched is None:
         stretched = float(np.clip((strain - _ISOMETRIC) / (_STRETCHED - _ISOMETRIC), 0, 1))
+        stretched = 1.0 if off else stretched
     weight = settings.isometry_weight ** (1 - stretched) * settings.isometry_weight_soft**stretched
     if settings.isometry == "off":
         weight = _OFF
     skin = problem.couplings.pairs.of_face[problem.lattices.face_of_span] > 0
     weights: Array = np.where(skin, weight, min(_WALL * weight, settings.isometry_weight_soft))
     thickness = (settings.thickness_sigma / settings.thickness_sigma_soft) ** (2 * stretched)
-    return replace(state, isometry=weights, strain=strain, thickness=thickness)
+    return replace(state, isometry=weights, strain=strain, faces_off=off, thickness=thickness)
 
 
 def is_isometric(state: State) -> bool:
-    """Whether the strain that was found lets the part count as isometric."""
-    return state.strain <= 0.5 * (_ISOMETRIC + _STRETCHED)
+    """Whether the strain that was found, and how the faces follow the scan, let the part count as isometric."""
+    return state.strain <= 0.5 * (_ISOMETRIC + _STRETCHED) and not state.faces_off

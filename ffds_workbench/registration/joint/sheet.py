@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Thin sheets: pairs of opposite places on the two skins of a solid, and its dominant thickness."""
+"""Pairs of opposite places on a solid: the two skins of a thin sheet, and its dominant thickness."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -19,17 +19,20 @@ _OPPOSITE = -0.95
 _LEAST_SHARE = 0.5
 _LEAST_SLENDERNESS = 5.0
 _SAME_THICKNESS = 0.08
+_GIVE = 0.003
+"""Change of the distance between opposite faces of a massive part, relative to it: they move together."""
 
 
 @dataclass(frozen=True)
 class SheetPairs:
-    """Opposite places on the skins of all sheets.
+    """Opposite places on the skins of all sheets and the faces of massive parts.
 
     Attributes
     ----------
     front, back : the places, pair by pair
     thickness : (n,) nominal distance in mm
     area : (n,) share of the skin in mm² that the pair stands for
+    give : (n,) how much the distance may change, in mm, where the part is no sheet; 0 on sheets
     solid_thickness : nominal thickness in mm of each solid, 0 where it is no sheet
     of_face : (faces,) nominal thickness in mm of the sheet whose skin the face is, 0 elsewhere
     """
@@ -38,6 +41,7 @@ class SheetPairs:
     back: Samples
     thickness: Array
     area: Array
+    give: Array
     solid_thickness: tuple[float, ...]
     of_face: Array
 
@@ -52,14 +56,15 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
         thickness, share, keep = _dominant(pairs, area[np.isin(lattices.face_of_span, solid)].sum())
         is_sheet = share >= _LEAST_SHARE
         thickness_of_solid.append(thickness if is_sheet else 0.0)
+        kept.append(np.column_stack([pairs[keep], np.zeros(keep.sum())]) if is_sheet
+                    else np.column_stack([pairs, _GIVE * pairs[:, 6]]))
         if is_sheet:
-            kept.append(pairs[keep])
             of_face[np.unique(pairs[keep][:, :2].astype(int))] = thickness
-    table = np.concatenate([np.zeros((0, 8)), *kept])
+    table = np.concatenate([np.zeros((0, 9)), *kept])
     table = table[table[:, 0] < table[:, 1]]
     front = sample(faces, lattices, table[:, 0].astype(np.intp), table[:, 2:4])
     back = sample(faces, lattices, table[:, 1].astype(np.intp), table[:, 4:6])
-    return SheetPairs(front, back, table[:, 6], table[:, 7], tuple(thickness_of_solid), of_face)
+    return SheetPairs(front, back, table[:, 6], table[:, 7], table[:, 8], tuple(thickness_of_solid), of_face)
 
 
 def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, area: Array) -> Array:

@@ -35,6 +35,7 @@ class State:
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     thickness : multiplies the weight of the sheets' thickness
     strain : rms strain found on observed faces
+    faces_off : whether isometry kept several faces from following the scan
     near : scan points near the edges, once they are needed
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     factor : of an earlier normal matrix; after the last stage of one with all data
@@ -50,6 +51,7 @@ class State:
     facing: Array | None = None
     thickness: float = 1.0
     strain: float = 0.0
+    faces_off: bool = False
     near: Array = field(default_factory=lambda: np.zeros((0, 3)))
     nearest: Index | None = None
     factor: FrontCholesky | None = None
