@@ -91,4 +91,4 @@ def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: 
     jacobian = np.concatenate([np.cross(arm, normal), normal], axis=1) * scale
     matrix = (jacobian * weight[:, None]).T @ jacobian
     matrix += np.eye(6) * (1e-6 * weight.sum() + 1e-12)
-    return scale * np.linalg.solve(matrix, -jacobian.T @ (weight * height))
+    return np.asarray(scale * np.linalg.solve(matrix, -jacobian.T @ (weight * height)))

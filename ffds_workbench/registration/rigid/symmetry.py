@@ -73,7 +73,9 @@ def symmetry_of(target: Target) -> Symmetry:
             turned = [_is_exact(target, points, pose) for pose in poses]
             if all(turned):
                 return Symmetry(poses[8::9], np.ones(len(poses[8::9]), dtype=bool), _axis(poses[8]))
-        lowest = (misses <= np.roll(misses, 1)) & (misses <= np.roll(misses, -1)) if len(poses) > 3 else True
+        lowest = np.ones(len(poses), dtype=bool)
+        if len(poses) > 3:
+            lowest = (misses <= np.roll(misses, 1)) & (misses <= np.roll(misses, -1))
         for pose in poses[(misses < 2.0 * _NEAR * size) & lowest]:
             pose = refine(target, points, pose, (4.0 * _NEAR * size, 2.0 * _NEAR * size), 5)
             new = angle(pose, np.eye(4)) > 0.05 and all(angle(pose, other) > 0.05 for other in found)

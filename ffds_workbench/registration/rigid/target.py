@@ -33,6 +33,9 @@ _FACING = 0.3
 _GRAZING = 0.15
 """Cosine under which a surface is too oblique for a camera to see it."""
 
+_FACE_ON = 0.6
+"""Cosine from which a view proves that a sample can be seen: the depth buffer is too coarse for obliquer ones."""
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -192,8 +195,8 @@ def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:
     generator = np.random.default_rng(0)
     share = all_samples.area / all_samples.area.sum()
     rough = generator.choice(len(share), size=min(len(share), 3 * _COARSE), replace=False, p=share)
-    seen = _visibility(all_samples[rough], views, np.sqrt(total / len(rough)))
-    exposed_rough = seen.any(axis=0)
+    seen = _visibility(all_samples[rough], all_samples.points, views, np.sqrt(total / len(rough)))
+    exposed_rough = (seen & (views @ all_samples.normals[rough].T > _FACE_ON)).any(axis=0)
     exposed = exposed_rough[cKDTree(all_samples.points[rough] + 1e-3 * all_samples.normals[rough]).query(
         all_samples.points + 1e-3 * all_samples.normals)[1]]
     kept = np.flatnonzero(exposed_rough & exposed[rough])[:_COARSE]
@@ -286,22 +289,29 @@ def _evaluate(face: FaceGeometry, uv: Array, index: int) -> Samples:
                    np.zeros(len(uv)), np.full(len(uv), index))
 
 
-def _visibility(samples: Samples, views: Array, spacing: float) -> NDArray[np.bool_]:
-    """Which samples an orthographic camera in each direction sees, by a depth buffer; (len(views), n)."""
+def _visibility(samples: Samples, hiding: Array, views: Array, spacing: float) -> NDArray[np.bool_]:
+    """Which samples an orthographic camera in each direction sees, by a depth buffer; (len(views), n).
+
+    Parameters
+    ----------
+    hiding : (m, 3) points that hide what is behind them, some per pixel so that no pixel is a hole
+    spacing : of the samples in mm; a pixel is twice that
+    """
     visible = np.zeros((len(views), len(samples.points)), dtype=bool)
     pixel = 2.0 * spacing
     for k, view in enumerate(views):
         across = np.cross(view, np.eye(3)[np.argmin(np.abs(view))])
         across /= np.linalg.norm(across)
         axes = np.stack([across, np.cross(view, across)], axis=1)
-        image = samples.points @ axes
-        cell = np.floor((image - image.min(axis=0)) / pixel).astype(int) + 1
-        width = int(cell[:, 1].max()) + 2
-        key = cell[:, 0] * width + cell[:, 1]
+        corner = (hiding @ axes).min(axis=0)
+        behind, mine = (np.floor((points @ axes - corner) / pixel).astype(int) + 1 for points in (hiding, samples.points))
+        width = int(behind[:, 1].max()) + 2
+        top = np.full(width * (int(behind[:, 0].max()) + 2), -np.inf)
+        np.maximum.at(top, behind[:, 0] * width + behind[:, 1], hiding @ view)
+        key = mine[:, 0] * width + mine[:, 1]
         height = samples.points @ view
-        top = np.full(width * (int(cell[:, 0].max()) + 2), -np.inf)
-        np.maximum.at(top, key, height)
         facing = samples.normals @ view
-        slack = pixel * (0.5 + 1.0 / np.maximum(facing, _GRAZING))
+        steepness = np.sqrt(1.0 - np.clip(facing, _GRAZING, 1.0) ** 2) / np.maximum(facing, _GRAZING)
+        slack = pixel * (0.2 + np.sqrt(2.0) * steepness)
         visible[k] = (facing > _GRAZING) & (height > top[key] - slack)
     return visible
