@@ -50,7 +50,8 @@ class AlignedScan:
         if found.symmetry:
             lines.append(f"Symmetry     the part is {found.symmetry}")
         if found.scale != 1.0:
-            lines.append(f"Unit         the scan is in {found.unit}: its coordinates were multiplied by {found.scale:g}")
+            lines.append(f"Unit         the scan is in {found.unit}: its coordinates were multiplied by "
+                         f"{found.scale:g}")
         if found.table:
             lines.append("Table        a plane beside the part was left out")
         return "\n".join(lines)

@@ -101,7 +101,8 @@ def _case(folder: Path, progress: Progress) -> dict[str, Any]:
     scan = scan_files.read(folder / "scan.ply").points
     row: dict[str, Any] = {"case": folder.name, "face": face.name, "kind": face.kind,
                            "before": figures(np.abs(project(face.surface, points).height))}
-    for name, method in METHODS.items():
+    methods = METHODS | {"ffds": lambda face, scan: register_ffds(face, scan, None)}
+    for name, method in methods.items():
         try:
             result = method(face, scan)
         except RefusedError as error:

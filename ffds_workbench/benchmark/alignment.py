@@ -57,8 +57,9 @@ def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
             rows.append([trial.name, mode, f"{row['failures']} of {starts}", f"{row['ambiguous']}",
                          f"{row['median_mm']:.3f}", f"{row['worst_mm']:.3f}", f"{row['worst_deg']:.2f}",
                          f"{row['median_s']:.2f}", f"{row['median_in_downsamplings']:.1f}"])
-    poses = Table("Poses from random starts", ("scan", "mode", "failures", "ambiguous", "median mm", "worst mm", "worst °",
-                                               "median s", "in voxel downsamplings"), rows)
+    poses = Table("Poses from random starts", (
+        "scan", "mode", "failures", "ambiguous", "median mm", "worst mm", "worst °", "median s",
+        "in voxel downsamplings"), rows)
     alarms, data["other_parts"] = _other_parts(trials, progress)
     tables = [poses, alarms]
     real = ROOT.parent / "shared" / "data" / "weld_pipe_on_angle"
@@ -160,7 +161,8 @@ def _repeat(trial: Trial, mode: str, starts: int) -> dict[str, float]:
         seconds.append(time.perf_counter() - begin)
         ratios.append(seconds[-1] / _downsampling(scan))
         poses = [pose.T_model_scan @ moved for pose in found.poses]
-        away = [(float(shift(pose, trial.truth, trial.target.centre)), float(angle(pose, trial.truth))) for pose in poses]
+        away = [(float(shift(pose, trial.truth, trial.target.centre)), float(angle(pose, trial.truth)))
+                for pose in poses]
         far, turned = min(away, key=lambda pair: pair[0] / _FAR + pair[1] / _TURNED, default=(np.inf, np.pi))
         failures += found.verdict == FAILED or far > _FAR or turned > _TURNED
         ambiguous += found.verdict == AMBIGUOUS

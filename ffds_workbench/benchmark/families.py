@@ -85,7 +85,7 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     directions = part.views[:1] if scan_name == "one-view" else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
     views = tuple(View(tuple(direction)) for direction in directions)
-    settings = SensorSettings(spacing=0.35, views=views, seed=int(rng.integers(2**31)), **SCANS[scan_name])  # type: ignore[arg-type]
+    settings = SensorSettings(spacing=0.35, views=views, seed=int(rng.integers(2**31)), **SCANS[scan_name])
     before = edge_points(part.shape)
     after = move(before.reshape(-1, 3)).reshape(before.shape)
     truth = make_truth(target, settings, before, after, part.thickness)

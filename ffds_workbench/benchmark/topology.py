@@ -98,7 +98,8 @@ def run(folder: Path, progress: Progress) -> str:
     for name, shape in topology_shapes.primitives():
         rows += measure(name, shape, progress)
     text = ("Every shape is rebuilt where it is (identity), with a bump of 2.5 % of a face's size on the face with "
-            "most edges and on the middle face of the list, the faces around it adapting, and warped as a whole by 2 %.",)
+            "most edges and on the middle face of the list, the faces around it adapting, and warped as a whole by "
+            "2 %.",)
     if not data.is_dir():
         text += (_NO_FILES,)
     return page.write(folder, "topology", "What keeps its topology", [Section("Results", text, tables=_tables(rows))],

@@ -2,8 +2,8 @@
 """Closes what a solve over all faces leaves along the edges: separate fields that agree there to about 1e-3 mm.
 
 Every face keeps its own field and adds a small correction that is exactly (agreed displacement − own displacement)
-on all its edges and fades inside. Since neighbours take the same agreed displacement, edges close to the fidelity of the
-correction, with lattices not much finer than the fields themselves.
+on all its edges and fades inside. Since neighbours take the same agreed displacement, edges close to the fidelity of
+the correction, with lattices not much finer than the fields themselves.
 """
 from __future__ import annotations
 

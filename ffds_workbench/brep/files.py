@@ -118,7 +118,7 @@ def _placed_shape(item: object) -> Part.Shape:
 
 
 def outer_placement(item: object) -> FreeCAD.Placement:
-    """From the coordinates of what holds a document object to the document's; also of a link, which does not know it."""
+    """From the coordinates of what holds a document object to the document's; a link does not know it itself."""
     holder = item.getParentGeoFeatureGroup()
     return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
 

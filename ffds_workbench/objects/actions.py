@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-
 from .. import RESOURCES, api
 from ..brep import files
 from ..errors import InputError

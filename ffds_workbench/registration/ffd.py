@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import ffds
 from .control_lattice import displacement_lattice
@@ -87,7 +88,7 @@ class FaceSource:
     u: Array
     v: Array
     points: Array
-    on_face: Array
+    on_face: NDArray[np.bool_]
 
 
 def register_ffd(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (10, 10), source_points: int = 400,

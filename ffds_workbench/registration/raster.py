@@ -64,7 +64,8 @@ class Raster:
     @cached_property
     def table(self) -> Array:
         """What a foot point needs of its cell, one row each, (20, m·n): position, principal directions, normal,
-        curvatures, steps in cells per mm along the principal directions (x by 1, x by 2, y by 1, y by 2), the centre's x and y."""
+        curvatures, steps in cells per mm along the principal directions (x by 1, x by 2, y by 1, y by 2), the centre's
+        x and y."""
         gram = np.stack([dot(self.tangent_u, self.tangent_u), dot(self.tangent_u, self.tangent_v),
                          dot(self.tangent_v, self.tangent_v)])
         determinant = gram[0] * gram[2] - gram[1] ** 2

@@ -39,7 +39,7 @@ if command -v ruff >/dev/null; then
     step "lint (ruff)" ruff check --no-cache .
 else
     echo "== lint: ruff is not installed, Debian's flake8 stands in"
-    step "lint (flake8)" flake8 --max-line-length 120 --extend-ignore E203,E402,E731,W503 --exclude .git,out .
+    step "lint (flake8)" flake8 --max-line-length 120 --extend-ignore E127,E128,E203,E402,E731,W503 --exclude .git,out .
 fi
 step "types (mypy)" mypy --no-error-summary --cache-dir "$home/mypy"
 step "tests in plain Python" "$python" -m pytest -q --ignore tests/gui "$@"

@@ -190,5 +190,3 @@ def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> csr_matrix:
         start = np.arange(len(side) + 1) * 48
         sides.append(csr_matrix((values.ravel(), columns.ravel(), start), shape=(len(side), 3 * lattices.count)))
     return (sides[0] - sides[1]).tocsr()
-
-

@@ -20,7 +20,7 @@ _WALL = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 _OFF = 1e-3
 _FACES_OFF, _SIGNIFICANT = 2, 5.0
-"""Faces that must lie off the scan until isometry is dropped, and by how many standard deviations; one may be clutter."""
+"""Faces off the scan that drop isometry, and by how many standard deviations they must be; one may be clutter."""
 
 
 def observed_strain(problem: Problem, state: State) -> float:

@@ -124,5 +124,3 @@ def _nodes_of(matrix: csr_matrix) -> csr_matrix:
     coo = matrix.tocoo()
     n = matrix.shape[0] // 3
     return csr_matrix((np.ones(coo.nnz), (coo.row // 3, coo.col // 3)), shape=(n, n))
-
-

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from ..face import FaceGeometry
 from ..splines import Array
 from ..trims import boundary_points, inside_trims
-from .lattice import Index, Lattices, products
+from .lattice import Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""

@@ -7,6 +7,7 @@ tells it, since no part of a sheet moves without its neighbours.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -68,13 +69,13 @@ def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> Array:
     tree = cKDTree(np.hstack([place, most * normal]), balanced_tree=False, compact_nodes=False)
     both = [tree.query(np.hstack([sketch.points, sign * most * sketch.normals]), distance_upper_bound=most,
                        workers=-1)[0] for sign in (1.0, -1.0)]
-    lost, distance = ([np.bincount(sketch.piece, weights=value(found)) for found in both]
-                      for value in (np.isinf, lambda found: np.minimum(found, most)))
-    few = _LOST * np.bincount(sketch.piece)
+    lost = [np.bincount(sketch.piece, weights=np.isinf(found).astype(float)) for found in both]
+    distance = [np.bincount(sketch.piece, weights=np.minimum(found, most)) for found in both]
+    few = _LOST * np.bincount(sketch.piece).astype(float)
     return _less(lost[0] + few, lost[1] + few, _FEWER, _less(distance[0], distance[1], _SURE, np.zeros(len(few))))
 
 
-def _less(first: Array, second: Array, factor: float, otherwise: Array) -> Array:
+def _less(first: NDArray[np.number], second: NDArray[np.number], factor: float, otherwise: Array) -> Array:
     """+1 where the first is less by that factor, −1 where the second is, else what is given."""
     return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, otherwise))
 

@@ -111,5 +111,3 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor, values=values, noise=values.noise,
                    nearest=found.nearest, last_step=last_step, iterations=state.iterations + 1)
-
-

@@ -174,5 +174,3 @@ def _most(flags: Flags) -> Flag:
 
 def _rms(bands: Array) -> float:
     return float(np.sqrt(np.mean(bands**2))) if len(bands) else float("inf")
-
-

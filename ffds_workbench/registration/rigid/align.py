@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Step 1 of the paper: many poses proposed, the promising ones refined, each verified against the model, the best kept."""
+"""Step 1 of the paper: many poses proposed, the best ones refined, each verified against the model, one kept."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -13,14 +13,13 @@ from ..splines import Array
 from .alignment import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
 from .fine import refine
 from .motions import angle, apply, even_rotations, motion, shift
-from .search import Candidates, NearestField, Probe, distinct, field_of, improve, scores
+from .search import Candidates, Probe, distinct, field_of, improve, scores
 from .sketch import Plane, Sketch, find_table, sketch_of, thin
 from .smooth import settle
 from .symmetry import Symmetry, symmetry_of
 from .target import Target
 from .units import plausible_scales, unit_name
 from .verify import Evidence, examine, facing_normals, is_rough
-
 
 
 @dataclass(frozen=True)
@@ -209,7 +208,7 @@ def _around(target: Target, sketch: Sketch, pose: Array) -> Array:
 
 
 def _centres(points: Array, size: float, most: int = 5) -> Array:
-    """Where the part may be in the scan: the centroid, or if the scan is larger than the part, places spread over it."""
+    """Where the part may be in the scan: the centroid, or places spread over a scan larger than the part."""
     middle = points.mean(axis=0)
     if np.linalg.norm(np.ptp(points, axis=0)) < 1.4 * size:
         return middle[None]

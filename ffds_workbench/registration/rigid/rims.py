@@ -73,7 +73,8 @@ def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacin
     tree = cKDTree(points)
     ahead = places + 1.2 * spacing * outwards
     distance, index = tree.query(ahead, k=4, distance_upper_bound=1.5 * spacing)
-    padded_points, padded_normals = np.concatenate([points, [[np.inf] * 3]]), np.concatenate([normals, np.zeros((1, 3))])
+    padded_points = np.concatenate([points, [[np.inf] * 3]])
+    padded_normals = np.concatenate([normals, np.zeros((1, 3))])
     beyond = np.einsum("nki,ni->nk", padded_points[index] - places[:, None], outwards) > 0.3 * spacing
     smooth = np.einsum("nki,ni->nk", padded_normals[index], outer_normals) > 0.8
     on = (np.isfinite(distance) & beyond & smooth).any(axis=1)

@@ -54,7 +54,8 @@ def match(target: Target, points: Array, normals: Array, reach: float, rounds: i
         height, normal = target.heights(place, nearest)
         if turn < rounds:
             place = points - _displacement(points, normal, height + np.einsum("ni,ni->n", normal, points - place),
-                                           height, np.isfinite(distance), target.size, _WIDEST * target.size * 0.5**turn)
+                                           height, np.isfinite(distance), target.size,
+                                           _WIDEST * target.size * 0.5**turn)
     return Match(place, distance, nearest, height, normal)
 
 

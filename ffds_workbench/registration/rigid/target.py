@@ -27,7 +27,7 @@ _AREA_GRID = 40
 _TURN = 0.35
 """Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
 _TURN_LENGTH = 0.04
-"""A normal turned by 1 rad counts as a distance of this share of the part's size in the search for the nearest sample."""
+"""A normal turned by 1 rad counts as this share of the part's size in the search for the nearest sample."""
 _FACING = 0.3
 """Cosine below which a sample does not face the way a point's normal does."""
 _GRAZING = 0.15
@@ -234,7 +234,7 @@ class _AreaGrid:
         return float(self.density.mean() * (self.box[1] - self.box[0]) * (self.box[3] - self.box[2]))
 
     def place(self, unit: Array) -> Array:
-        """Points of the unit square (n, 2) to parameters (n, 2) that are even by area: inverse distribution function."""
+        """Points of the unit square (n, 2) to parameters (n, 2) even by area: inverse distribution function."""
         u0, u1, v0, v1 = self.box
         marginal = np.concatenate([[0.0], np.cumsum(self.density.sum(axis=1))])
         u = np.interp(unit[:, 0] * marginal[-1], marginal, np.linspace(0, 1, _AREA_GRID + 1))
@@ -304,7 +304,8 @@ def _visibility(samples: Samples, hiding: Array, views: Array, spacing: float) -
         across /= np.linalg.norm(across)
         axes = np.stack([across, np.cross(view, across)], axis=1)
         corner = (hiding @ axes).min(axis=0)
-        behind, mine = (np.floor((points @ axes - corner) / pixel).astype(int) + 1 for points in (hiding, samples.points))
+        behind, mine = (np.floor((points @ axes - corner) / pixel).astype(int) + 1
+                        for points in (hiding, samples.points))
         width = int(behind[:, 1].max()) + 2
         top = np.full(width * (int(behind[:, 0].max()) + 2), -np.inf)
         np.maximum.at(top, behind[:, 0] * width + behind[:, 1], hiding @ view)

@@ -59,7 +59,7 @@ def is_rough(target: Target, sketch: Sketch) -> bool:
 
 
 def facing_normals(target: Target, points: Array) -> Array:
-    """Normals of the part below points (n, 3) in model coordinates: what takes the place of normals that are guesses."""
+    """Normals of the part below points (n, 3) in model coordinates, in place of normals that are guesses."""
     return target.samples.normals[target.tree.query(points)[1]]
 
 
