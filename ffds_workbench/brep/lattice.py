@@ -22,6 +22,9 @@ GridFunction = Callable[[Array, Array], Array]
 _CHECKS = np.array([0.21, 0.5, 0.79])
 _LINES = 16, 60
 """Lines across along which errors are looked at: while the knots are refined, and to be sure in the end."""
+_SHORTEST_SPAN = 1e-5
+"""Spans shorter than this share of their side are not divided: at a kink that no knot marks it would never end, and
+OCCT reads no surface whose knots coincide but for rounding."""
 _DEGENERATE_ROW = 1e-7
 """A row of control points within this box (mm) is a pole of the surface and is made exactly one point."""
 
@@ -53,7 +56,7 @@ class Direction:
         if not self.closed:
             return np.concatenate([np.full(DEGREE + 1, a), self.interior, np.full(DEGREE + 1, b)])
         one = np.concatenate([[a], self.interior])
-        return np.concatenate([one[-DEGREE:] - (b - a), one, one[: DEGREE + 1] + (b - a)])
+        return np.concatenate([one[-DEGREE:] - (b - a), one, [b], one[1 : DEGREE + 1] + (b - a)])
 
     @property
     def sites(self) -> Array:
@@ -91,13 +94,14 @@ class Direction:
         """Spans whose error (spans,) exceeds the tolerance are split; a cubic's error falls with the fourth power."""
         breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
         pieces = np.ceil((errors / (0.7 * tolerance)) ** 0.25).astype(int)
-        pieces = np.where(errors > tolerance, np.clip(pieces, 2, 6), 1)
+        divisible = np.diff(breaks) > _SHORTEST_SPAN * (self.end - self.start)
+        pieces = np.where((errors > tolerance) & divisible, np.clip(pieces, 2, 6), 1)
         room = most - len(self.interior)
         if room <= 0:
             return self
         if (pieces - 1).sum() > room:
             pieces = np.minimum(pieces, 2)
-            worst = np.argsort(errors)[::-1][:room]
+            worst = np.argsort(np.where(divisible, errors, 0.0))[::-1][:room]
             pieces = np.where(np.isin(np.arange(len(pieces)), worst), pieces, 1)
         new = [a + (b - a) * np.arange(1, k) / k
                for a, b, k in zip(breaks[:-1], breaks[1:], pieces, strict=True) if k > 1]
