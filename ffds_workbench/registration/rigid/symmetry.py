@@ -80,8 +80,8 @@ def symmetry_of(target: Target) -> Symmetry:
             pose = refine(target, points, pose, (4.0 * _NEAR * size, 2.0 * _NEAR * size), 5)
             new = angle(pose, np.eye(4)) > 0.05 and all(angle(pose, other) > 0.05 for other in found)
             if new and _misses(target, points, pose).mean() < _NEAR * size:
-                found.append(pose)
                 exact.append(_is_exact(target, points, pose))
+                found.append(refine(target, samples.points[::4], pose, (_EXACT * size,)) if exact[-1] else pose)
     return Symmetry(np.array(found).reshape(-1, 4, 4), np.array(exact, dtype=bool), None)
 
 
