@@ -26,6 +26,7 @@ from ..scan.cloud import PointCloud
 from ..scan.plausibility import check_overlap
 from .inputs import as_cloud, as_model, box
 from .methods import Deformation, Lattice, all_together, each_by_itself
+from .tuning import Tuning
 
 METHODS = ("robust", "ffds", "ffd-hsu")
 ISOMETRY = ("auto", "on", "off")
@@ -75,7 +76,8 @@ class Result:
 
 def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, faces: Sequence[str] | None = None,
              method: str = "robust", lattice: Lattice = "auto", freeze: Collection[str] = (),
-             source_points: int = 400, isometry: str = "auto", progress: Progress | None = None) -> Result:
+             source_points: int = 400, isometry: str = "auto", progress: Progress | None = None,
+             stiffness: float = 1.0, gate: float | None = None) -> Result:
     """Deform faces of a model to a scan; neighbouring faces adapt and the topology stays.
 
     Parameters
@@ -90,25 +92,28 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
     source_points : of methods "ffds" and "ffd-hsu", on each face
     isometry : of a whole sheet part: "on" holds it inextensible, "off" does not, "auto" decides from the strain found
     progress : called with what is being done
+    stiffness : of "robust": above 1 the displacement is smoother, below 1 it follows the scan more closely
+    gate : of "robust": scan points farther than this from the as-built surface are outliers, in mm; None for the
+        default
 
     Raises
     ------
     InputError : the model, a name, the method or the lattice cannot be used
     RefusedError : no overlap, too little data, or a result that would break the model
     """
-    watch = Stopwatch(progress)
+    watch, tuning = Stopwatch(progress), Tuning(stiffness, gate)
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)
         cloud = as_cloud(scan)
         part = workpiece.read(nominal.shape)
         frozen = [part.index(name) for name in dict.fromkeys(freeze)]
         wanted = None if faces is None else [part.index(name) for name in dict.fromkeys(faces)]
-        _check_request(method, lattice, wanted, frozen, isometry)
+        _check_request(method, lattice, wanted, frozen, isometry, tuning)
         check_overlap(cloud, *box(nominal.shape))
     if method == "robust" and wanted is None:
-        found = all_together(part, cloud, freeze, isometry, watch)
+        found = all_together(part, cloud, freeze, isometry, watch, tuning)
     else:
-        found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch)
+        found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
     with ThreadPoolExecutor(1) as background:
@@ -131,12 +136,14 @@ def _with_checks(certificate: Certificate, before: int | None, after: int | None
 
 
 def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],
-                   isometry: str) -> None:
+                   isometry: str, tuning: Tuning) -> None:
     if method not in METHODS:
         raise InputError(f"The method '{method}' is unknown: use one of {', '.join(METHODS)}.")
     if lattice != "auto" and (isinstance(lattice, str) or min(lattice) < 4):
         raise InputError(f"The lattice {lattice} is unknown or too small: a cubic lattice has 4 or more control points "
                          f"in each direction, for instance 10x10.")
+    if method != "robust" and tuning != Tuning():
+        raise InputError(f"Stiffness and outliers are settings of method robust, not of {method}: leave them out.")
     both = sorted(set(wanted or ()) & set(frozen))
     if both:
         raise InputError(f"Face{both[0] + 1} is to be deformed and to be frozen: choose one.")

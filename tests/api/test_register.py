@@ -64,6 +64,24 @@ def test_frozen_faces_stay_as_they_are(scan):
         assert result.shape.Faces[index].Area == pytest.approx(box.Faces[index].Area, rel=1e-9)
 
 
+def test_stiffness_smooths_and_a_gate_above_the_noise_changes_nothing():
+    """A bump of 1 mm, known to the noise of 0.03 mm."""
+    box, random = Part.makeBox(60, 40, 5), np.random.default_rng(3)
+    x, y = random.uniform((0, 0), (60, 40), (6000, 2)).T
+    z = 5 + np.exp(-((x - 30) ** 2 + (y - 20) ** 2) / (2 * 8**2)) + random.normal(0, 0.03, 6000)
+    scan = np.stack([x, y, z], axis=1)
+
+    def top(**settings) -> float:
+        shape = api.register(box, scan, ["Face6"], **settings).shape
+        return 20 - shape.distToShape(Part.Vertex(30, 20, 20))[0]
+
+    assert top() == pytest.approx(6, abs=0.03)
+    assert top(stiffness=1e4) < 5.9 and top(stiffness=0.01) == pytest.approx(6, abs=0.05)
+    assert top(gate=0.3) == pytest.approx(6, abs=0.03)
+    whole = api.register(box, scan, stiffness=1e4).shape
+    assert 20 - whole.distToShape(Part.Vertex(30, 20, 20))[0] < top()
+
+
 def test_deviation_of_an_array():
     points = np.random.default_rng(0).uniform((1, 1, 5.2), (59, 39, 5.2), (500, 3))
     figures = api.deviation(Part.makeBox(60, 40, 5), points).report["deviation"]
@@ -78,7 +96,8 @@ def test_progress_is_told(scan):
 
 @pytest.mark.parametrize(("arguments", "message"), [
     ({"method": "magic"}, "unknown"), ({"lattice": (3, 8)}, "4 or more"), ({"faces": []}, "No face"),
-    ({"faces": ["Face9"]}, "no Face9"), ({"freeze": ["Face9"]}, "no Face9")])
+    ({"faces": ["Face9"]}, "no Face9"), ({"freeze": ["Face9"]}, "no Face9"), ({"stiffness": 0}, "stiffness"),
+    ({"gate": -1.0}, "above 0"), ({"gate": 1.0, "method": "ffds"}, "method robust")])
 def test_requests_that_cannot_be_read(scan, arguments, message):
     with pytest.raises(api.InputError, match=message):
         api.register(Part.makeBox(60, 40, 5), scan, **arguments)
