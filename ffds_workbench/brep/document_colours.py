@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Face colours in FreeCAD documents, without a GUI: they live in the view providers' part of the file."""
+"""Face colours and visibility in FreeCAD documents, without a GUI: they live in the view providers' part of the file."""
 from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
@@ -16,10 +16,7 @@ _TEMPLATE = """<?xml version='1.0' encoding='utf-8'?>
 <Document SchemaVersion="1">
     <ViewProviderData Count="1">
         <ViewProvider name="{name}" expanded="0">
-            <Properties Count="2" TransientCount="0">
-                <Property name="DiffuseColor" type="App::PropertyColorList" status="1">
-                    <ColorList file="{file}"/>
-                </Property>
+            <Properties Count="{count}" TransientCount="0">{colours}
                 <Property name="Visibility" type="App::PropertyBool" status="1">
                     <Bool value="true"/>
                 </Property>
@@ -29,6 +26,10 @@ _TEMPLATE = """<?xml version='1.0' encoding='utf-8'?>
     <Camera settings=""/>
 </Document>
 """
+_COLOURS = """
+                <Property name="DiffuseColor" type="App::PropertyColorList" status="1">
+                    <ColorList file="DiffuseColor"/>
+                </Property>"""
 
 
 def read(path: Path, name: str) -> tuple[Colour, ...]:
@@ -49,11 +50,15 @@ def read(path: Path, name: str) -> tuple[Colour, ...]:
     return tuple(tuple(row) for row in (channels / 255.0).tolist())
 
 
-def add(path: Path, name: str, colours: tuple[Colour, ...]) -> None:
-    """Give the object ``name`` of a document without view data its face colours."""
-    channels = np.rint(np.clip(np.array(colours), 0, 1) * 255).astype(np.uint32)
+def add_view(path: Path, name: str, colours: tuple[Colour, ...]) -> None:
+    """Give the object ``name`` of a document without view data its face colours, if any, and make it visible.
+
+    What a file without view data holds, FreeCAD's window opens hidden.
+    """
+    channels = np.rint(np.clip(np.reshape(colours, (-1, 4)), 0, 1) * 255).astype(np.uint32)
     packed = (channels << np.array([24, 16, 8, 0], dtype=np.uint32)).sum(axis=1, dtype=np.uint32)
-    content = np.concatenate([np.array([len(packed)], dtype=np.uint32), packed]).astype("<u4").tobytes()
     with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(_GUI, _TEMPLATE.format(name=name, file="DiffuseColor"))
-        archive.writestr("DiffuseColor", content)
+        shown = {"count": 2, "colours": _COLOURS} if colours else {"count": 1, "colours": ""}
+        archive.writestr(_GUI, _TEMPLATE.format(name=name, **shown))
+        if colours:
+            archive.writestr("DiffuseColor", np.uint32(len(packed)).tobytes() + packed.astype("<u4").tobytes())
