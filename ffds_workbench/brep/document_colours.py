@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Face colours and visibility in FreeCAD documents, without a GUI: they live in the view providers' part of the file."""
+"""Face colours and visibility in FreeCAD documents: without a GUI, in the view providers' part of the file."""
 from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree

@@ -220,8 +220,10 @@ def _write_document(model: Model, path: Path) -> None:
         item = document.addObject("Part::Feature", "AsBuilt")
         item.Label = model.label
         item.Shape = model.shape
-        name = item.Name
+        name, view = item.Name, getattr(item, "ViewObject", None)
         document.recompute()
+        if view is not None and model.decoration.colours:
+            view.DiffuseColor = list(model.decoration.colours)
         document.saveAs(str(path))
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
         raise RefusedError(f"The document could not be written: {error}.") from error
@@ -229,7 +231,8 @@ def _write_document(model: Model, path: Path) -> None:
         FreeCAD.closeDocument(document.Name)
     if not zipfile.is_zipfile(path):
         raise RefusedError("The document could not be written whole: is the disk full?")
-    document_colours.add_view(path, name, model.decoration.colours)
+    if view is None:
+        document_colours.add_view(path, name, model.decoration.colours)
     with zipfile.ZipFile(path) as archive:
         if archive.testzip() is not None:
             raise RefusedError("The document could not be written whole: is the disk full?")
