@@ -23,9 +23,9 @@ REACH = 10.0
 SMALLEST_SINGULAR_VALUE = 1e-6
 _LEAST_COVERAGE = 0.1
 _FINEST = 10
-_OVERSHOOT = 4.0
-"""Ratio of control point to source point displacement above which a lattice counts as undetermined; a cubic through a
-full grid stays below 2."""
+_OVERSHOOT, _FIRM = 4.0, 2.5
+"""Ratio of control point to source point displacement above which a lattice counts as undetermined, and the one up to
+which it is taken unasked; a cubic through a full grid stays below 2, or a little above where most of it is noise."""
 
 
 class UndeterminedError(RefusedError):
@@ -52,6 +52,22 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
     """
     if lattice is None:
         return _finest(face, scan, source_points, reach)
+    return _register(face, scan, lattice, source_points, reach, _OVERSHOOT)
+
+
+def _finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
+    """The registration with the finest lattice that the source points determine firmly."""
+    for count in range(_FINEST, DEGREE + 1, -1):
+        try:
+            return _register(face, scan, (count, count), source_points, reach, _FIRM)
+        except UndeterminedError:
+            continue
+    return _register(face, scan, (DEGREE + 1, DEGREE + 1), source_points, reach, _OVERSHOOT)
+
+
+def _register(face: FaceGeometry, scan: Array, lattice: tuple[int, int], source_points: int, reach: float,
+              overshoot: float) -> FaceRegistration:
+    """The paper's algorithm with a given lattice."""
     control = displacement_lattice(face.surface, lattice)                     # steps 1 and 2: N_i, N_j, the lattice
     u, v, on_face = equidistant_grid(face, source_points)
     source = face.surface.on_grid(u, v)[on_face]
@@ -60,21 +76,11 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
     coverage = check_coverage(face, distance, reach)
     displacement_points = scan[nearest] - source                              # Δp
     control_points = solve(control, u, v, on_face, displacement_points)       # step 4: ΔP̃ = B⁺ Δp (Eq. 4)
-    _check_determined(face, control, control_points, displacement_points)
+    _check_determined(face, control, control_points, displacement_points, overshoot)
     displacement = control.field(control_points)                              # step 5: L̃(p) = Σ N N (P̃ + ΔP̃) (Eq. 2)
     residual = scan[nearest] - source - displacement.on_grid(u, v)[on_face]
     noise = 1.4826 * float(np.median(np.abs(along_normal(face, u, v, on_face, residual))))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
-
-
-def _finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
-    """The registration with the finest lattice that the source points determine."""
-    for count in range(_FINEST, DEGREE + 1, -1):
-        try:
-            return register_ffds(face, scan, (count, count), source_points, reach)
-        except UndeterminedError:
-            continue
-    return register_ffds(face, scan, (DEGREE + 1, DEGREE + 1), source_points, reach)
 
 
 def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_], values: Array) -> Array:
@@ -150,10 +156,11 @@ def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: NDArray[np.boo
     return np.divide((normal * vectors).sum(axis=1), length, out=np.zeros(len(vectors)), where=length > 0)
 
 
-def _check_determined(face: FaceGeometry, control: ControlLattice, control_points: Array, moves: Array) -> None:
+def _check_determined(face: FaceGeometry, control: ControlLattice, control_points: Array, moves: Array,
+                      overshoot: float) -> None:
     """Control points that go much farther than any source point hang over holes, held by hardly anything."""
     farthest, asked = (float(np.linalg.norm(points, axis=1).max()) for points in (control_points, moves))
-    if farthest > _OVERSHOOT * asked:
+    if farthest > overshoot * asked:
         rows, columns = control.unknown.shape
         raise UndeterminedError(
             f"The lattice {rows}x{columns} is too fine for {face.name}: around holes its control points would move "
