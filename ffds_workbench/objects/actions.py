@@ -6,6 +6,7 @@ Errors are `InputError` and `RefusedError`; a function that raises has left the 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,6 @@ from .sources import read_source, standing_for
 
 __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
            "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "simulate_scan"]
-
-Lattice = tuple[int, int] | str
 
 
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
@@ -43,30 +42,29 @@ def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
     return scan
 
 
-def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (),
-                  method: str = "robust", lattice: Lattice = "auto", source_points: int = 400,
-                  isometry: str = "auto") -> Any:
+def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **settings: Any) -> Any:
     """An as-built part beside its nominal one, which is hidden; it follows both and its settings.
 
     Parameters
     ----------
     source : the nominal part, any object with a shape
     scan : a Points object
-    faces, freeze, method, lattice, source_points, isometry : as in `api.register`
+    faces : names of the faces to deform, None for the whole part
+    settings : freeze, method, lattice, source_points, isometry, stiffness, gate, as in `api.register`
 
     Raises
     ------
     InputError, RefusedError : as `api.register` does
     """
-    settings = _settings(faces, freeze, method, lattice, source_points, isometry)
-    job = make_job(source, scan, settings)
+    wanted = _settings(faces, settings)
+    job = make_job(source, scan, wanted)
     job.run()
     source = job.source.item
     item = source.Document.addObject("Part::FeaturePython", "AsBuilt")
     AsBuilt(item)
     item.Label = f"{source.Label} as built"
     item.Source, item.Scan = source, scan
-    apply_settings(item, settings)
+    apply_settings(item, wanted)
     holder = source.getParentGroup() or source.getParentGeoFeatureGroup()
     if holder is not None:
         holder.addObject(item)
@@ -76,28 +74,24 @@ def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, fr
     return item
 
 
-def change_as_built(item: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (), method: str = "robust",
-                    lattice: Lattice = "auto", source_points: int = 400, isometry: str = "auto",
-                    scan: Any = None) -> Any:
+def change_as_built(item: Any, faces: Sequence[str] | None = None, scan: Any = None, **settings: Any) -> Any:
     """Give an as-built part other settings, and another scan if one is named; unnamed settings take their defaults."""
     if not is_as_built(item):
         raise InputError(f"{item.Label} is no as-built part of this workbench.")
-    settings = _settings(faces, freeze, method, lattice, source_points, isometry)
-    make_job(item.Source, scan or item.Scan, settings).run()
+    wanted = _settings(faces, settings)
+    make_job(item.Source, scan or item.Scan, wanted).run()
     item.Scan = scan or item.Scan
-    apply_settings(item, settings)
+    apply_settings(item, wanted)
     item.recompute()
     return item
 
 
-def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None, freeze: Sequence[str] = (),
-                     method: str = "robust", lattice: Lattice = "auto", source_points: int = 400,
-                     isometry: str = "auto") -> Any:
+def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None, **settings: Any) -> Any:
     """Write the as-built shape into the part itself, which must be a plain shape without a history of its own."""
     if source.TypeId != "Part::Feature":
         raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple "
                          f"copy of it, or an as-built part beside it.")
-    job = make_job(source, scan, _settings(faces, freeze, method, lattice, source_points, isometry))
+    job = make_job(source, scan, _settings(faces, settings))
     shape = job.run().shape.copy()
     shape.Placement = job.source.placement
     source.Shape = shape
@@ -141,7 +135,8 @@ def job_of(item: Any) -> Job:
     return make_job(item.Source, item.Scan, settings_of(item))
 
 
-def _settings(faces: Sequence[str] | None, freeze: Sequence[str], method: str, lattice: Lattice, source_points: int,
-              isometry: str) -> Settings:
-    size = lattice if isinstance(lattice, str) else (int(lattice[0]), int(lattice[1]))
-    return Settings(None if faces is None else tuple(faces), tuple(freeze), method, size, source_points, isometry)
+def _settings(faces: Sequence[str] | None, others: dict[str, Any]) -> Settings:
+    """Settings of plain lists, as macros name them."""
+    wanted = Settings(None if faces is None else tuple(faces), **others)
+    lattice = wanted.lattice if isinstance(wanted.lattice, str) else (int(wanted.lattice[0]), int(wanted.lattice[1]))
+    return replace(wanted, freeze=tuple(wanted.freeze), lattice=lattice)

@@ -9,6 +9,7 @@ import FreeCAD
 import numpy as np
 
 from ..api.registering import ISOMETRY, METHODS
+from ..api.tuning import STIFFEST
 from ..errors import InputError
 from .feature import HIDDEN, READ_ONLY, Feature, Property
 from .job import Settings, make_job
@@ -41,6 +42,11 @@ class AsBuilt(Feature):
                  "Source points on each face, for the methods ffds and ffd-hsu", (400, 16, 1000000, 100)),
         Property("Isometry", "App::PropertyEnumeration", "As built",
                  "Whether a whole sheet part is held inextensible", list(ISOMETRY)),
+        Property("Stiffness", "App::PropertyFloatConstraint", "As built",
+                 "Above 1 the displacement is smoother, below 1 it follows the scan more closely",
+                 (1.0, 1 / STIFFEST, STIFFEST, 0.1)),
+        Property("Gate", "App::PropertyLength", "As built",
+                 "Scan points farther than this from the as-built part are outliers; 0: a default for most scans"),
         _figure("MeanBefore", "Mean distance of the scan from the nominal part"),
         _figure("P95Before", "95 % of the scan are nearer than this to the nominal part"),
         _figure("MeanAfter", "Mean distance of the scan from the as-built part"),
@@ -90,7 +96,7 @@ def settings_of(obj: Any) -> Settings:
                          f"0 for both to choose them from the data.")
     faces = _names(obj, obj.Faces)
     return Settings(faces or None, _names(obj, obj.Freeze), obj.Method, sizes if sizes[0] else "auto", obj.SourcePoints,
-                    obj.Isometry)
+                    obj.Isometry, obj.Stiffness, obj.Gate.Value or None)
 
 
 def apply_settings(obj: Any, settings: Settings) -> None:
@@ -98,6 +104,7 @@ def apply_settings(obj: Any, settings: Settings) -> None:
     obj.Faces = [(obj.Source, settings.faces)] if settings.faces else []
     obj.Freeze = [(obj.Source, settings.freeze)] if settings.freeze else []
     obj.Method, obj.Isometry, obj.SourcePoints = settings.method, settings.isometry, settings.source_points
+    obj.Stiffness, obj.Gate = settings.stiffness, settings.gate or 0.0
     obj.ControlPointsU, obj.ControlPointsV = (0, 0) if settings.lattice == "auto" else settings.lattice
 
 

@@ -34,6 +34,8 @@ class Settings:
     lattice: tuple[int, int] | str = "auto"
     source_points: int = 400
     isometry: str = "auto"
+    stiffness: float = 1.0
+    gate: float | None = None
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ class Job:
             wanted = self.settings
             _results[self.digest] = api.register(
                 self.source.model, self.points, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
-                wanted.source_points, wanted.isometry, progress)
+                wanted.source_points, wanted.isometry, progress, wanted.stiffness, wanted.gate)
             while len(_results) > _KEPT:
                 _results.popitem(last=False)
         return _results[self.digest]
