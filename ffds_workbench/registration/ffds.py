@@ -14,7 +14,7 @@ from .control_lattice import ControlLattice, displacement_lattice
 from .face import FaceGeometry
 from .neighbours import nearest_neighbours
 from .result import FaceRegistration
-from .splines import DEGREE, Array
+from .splines import DEGREE, Array, tensor_product
 from .trims import inside_trims
 
 REACH = 10.0
@@ -102,8 +102,7 @@ def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_
     """
     if on_face.all() and control.is_tensor:
         grid = values.reshape(len(u), len(v), -1)
-        points = np.einsum("iu,uvk,jv->ijk", pseudo_inverse(control.basis_u(u)), grid,
-                           pseudo_inverse(control.basis_v(v)), optimize=True)
+        points = tensor_product(pseudo_inverse(control.basis_u(u)), pseudo_inverse(control.basis_v(v)), grid)
         return points.reshape(control.free, -1)
     return pseudo_inverse(basis(control, u, v)[on_face.ravel()]) @ values
 

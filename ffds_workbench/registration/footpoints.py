@@ -98,20 +98,26 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
     cell size.
     """
     locate = _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
-    kept = []
-    for first in range(0, max(1, len(points)), _CHUNK):
+    x, y, height = np.empty((3, len(points)))      # touched, and so taken, no farther than points are found
+    found = SurfaceCoordinates(np.empty(len(points), dtype=np.intp), x, y, height, raster.shape)
+    count = 0
+    for first in range(0, len(points), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach
-        for a, count, periodic in zip((x, y), raster.shape, raster.periodic, strict=True):
+        for a, cells, periodic in zip((x, y), raster.shape, raster.periodic, strict=True):
             if not periodic:
-                valid &= (a >= 0) & (a < count)
+                valid &= (a >= 0) & (a < cells)
         chosen = np.flatnonzero(valid)
         index = chosen if index is None else index[chosen]
-        found = SurfaceCoordinates(index + first, raster.wrapped(x[chosen], 0), raster.wrapped(y[chosen], 1),
-                                   height[chosen], raster.shape)
-        kept.append(found if margin is None else found.on_face(raster, margin))
-    index, x, y, height = (np.concatenate([getattr(found, name) for found in kept]) for name in _COLUMNS)
-    return SurfaceCoordinates(index, x, y, height, raster.shape)
+        some = SurfaceCoordinates(index + first, raster.wrapped(x[chosen], 0), raster.wrapped(y[chosen], 1),
+                                  height[chosen], raster.shape)
+        if margin is not None:
+            some = some.on_face(raster, margin)
+        part = slice(count, count + len(some.x))
+        for name in _COLUMNS:
+            getattr(found, name)[part] = getattr(some, name)
+        count = part.stop
+    return found.part(slice(count))
 
 
 def _flat_locator(raster: Raster) -> Locator:

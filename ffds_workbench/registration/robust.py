@@ -104,9 +104,10 @@ def _check_found(face: FaceGeometry, points: int) -> None:
 
 
 def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates, automatic: bool) -> None:
-    occupied = np.count_nonzero(np.bincount(points.in_cell[0]))
-    if fit.lattice.free <= occupied:
-        return
+    for some in (points.sample(fit.settings.sample), points):
+        occupied = np.count_nonzero(np.bincount(some.in_cell[0]))
+        if fit.lattice.free <= occupied:
+            return
     if automatic:
         raise RefusedError(
             f"The scan shows too little of {face.name}: its {len(points.x)} points lie in {occupied} places, and at "

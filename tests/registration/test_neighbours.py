@@ -47,3 +47,15 @@ def test_all_points_equal():
     distances, indices = nearest_neighbours(np.ones((100, 3)), np.zeros((5, 3)))
     np.testing.assert_allclose(distances, np.sqrt(3))
     np.testing.assert_array_equal(indices, 0)
+
+
+@pytest.mark.parametrize("ordered", [True, False], ids=["strip by strip", "at random"])
+def test_a_scan_of_several_blocks(ordered):
+    scan = np.c_[RANDOM.uniform(0, 75, (300_000, 2)), RANDOM.normal(0, 0.1, 300_000)]
+    scan = np.round(scan[np.argsort(scan[:, 0])] if ordered else scan, 2)      # rounded: there are equal points
+    queries = np.c_[RANDOM.uniform(-10, 85, (500, 2)), RANDOM.uniform(-5, 5, 500)]
+    queries[:100] = scan[RANDOM.integers(0, len(scan), 100)]
+    distances, indices = nearest_neighbours(scan, queries)
+    np.testing.assert_array_equal(distances, cKDTree(scan).query(queries)[0])
+    first = {tuple(point): k for k, point in reversed(list(enumerate(scan)))}
+    np.testing.assert_array_equal(indices[:100], [first[tuple(query)] for query in queries[:100]])
