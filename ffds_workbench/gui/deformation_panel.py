@@ -10,23 +10,24 @@ import numpy as np
 from ..errors import FfdsError, InputError
 from ..objects.as_built import settings_of
 from ..objects.job import Job, Settings, make_job
-from ..objects.sources import Source
+from ..objects.sources import Source, standing_for
 from . import running
-from .colours import good_limit, packed_colours
+from .colours import good_limit
 from .deformation_form import DeformationForm
-from .overlay import Overlay, lattice_nodes, mesh_node
-from .preview import Patch, Preview, figures
+from .overlay import Overlay
+from .preferences import preferences
+from .preview import Patch, figures
+from .preview_drawing import PreviewDrawing
+from .preview_runner import PreviewRunner
 from .qt import QtCore, QtWidgets
 from .selection import Chosen, chosen, scans_of
-
-_REST_MS = 350
-"""The preview becomes exact when nothing was touched for so long."""
+from .translating import tr
 
 
 def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
     """Open the panel on the selection, on the whole part, or on the as-built part ``item`` to change it."""
     if Gui.Control.activeDialog():
-        running.tell("Another task is open: finish or close it first.")
+        running.tell(tr("Another task is open: finish or close it first."))
         return
     with running.telling():
         Gui.Control.showDialog(DeformationPanel(document, item, whole))
@@ -40,19 +41,18 @@ class DeformationPanel:
         self._source: Any = None
         self._faces: tuple[str, ...] = ()
         self._hint = ""
-        self._preview: Preview | None = None
         self._read: tuple[tuple[Any, Any], Source, Any] | None = None
         self._worker: running.Worker | None = None
+        self._wished = preferences()
         self.form = DeformationForm(scans_of(document), item is not None)
         self._take(item, chosen(), whole)
         self._overlay = Overlay(document.Name)
-        self._rest = QtCore.QTimer(self.form)
-        self._rest.setSingleShot(True)
-        self._rest.timeout.connect(self._show_exact)
-        self.form.changed.connect(self._show_coarse)
+        self._drawing = PreviewDrawing(self._overlay)
+        self._runner = PreviewRunner(self._draw, self._draw_nothing, self.form.show_progress)
+        self.form.changed.connect(self._preview)
         Gui.Selection.addObserver(self)
         self._watching = True
-        QtCore.QTimer.singleShot(0, self._show_coarse)
+        QtCore.QTimer.singleShot(0, self._preview)
 
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
         """Start from an as-built part, or from what is selected."""
@@ -70,20 +70,34 @@ class DeformationPanel:
 
     def _pick(self, selected: Chosen) -> None:
         """Take over the part, the faces and the scan of a selection; what cannot be used is said."""
-        sentence = ""
+        self._hint = ""
         if selected.scans:
             self.form.set_scan(selected.scans[-1])
-        parts = [self._item.Source if part is self._item else part for part in selected.parts]
-        if len(set(parts)) > 1:
-            sentence = "Faces of two parts are selected: choose those of one."
-        elif parts:
-            if self._item is None:
-                self._source = parts[0]
-            if parts[0] is self._source:
-                self._faces = tuple(dict.fromkeys(selected.faces[selected.parts[0].Name])) or self._faces
-        if selected.others and not sentence:
-            sentence = f"{selected.others[0]} is neither a face nor a point cloud: pick faces of a part, and a scan."
-        self._hint = sentence
+        try:
+            picked = {standing_for(part): selected.faces[part.Name] for part in selected.parts}
+            if self._item in picked:
+                picked[self._source] = picked.pop(self._item)
+            if len(picked) > 1:
+                raise InputError(tr("Faces of two parts are selected: choose those of one."))
+            for part, faces in picked.items():
+                self._pick_faces(part, tuple(dict.fromkeys(faces)))
+            if selected.others:
+                raise InputError(tr("{name} is neither a face nor a point cloud: pick faces of a part, and a scan."
+                                    ).format(name=selected.others[0]))
+        except InputError as refusal:
+            self._hint = str(refusal)
+
+    def _pick_faces(self, part: Any, faces: tuple[str, ...]) -> None:
+        if self._item is not None and part is not self._source:
+            raise InputError(tr("{part} is made from {source}: pick faces of one of these two.").format(
+                part=self._item.Label, source=self._source.Label))
+        if part is not self._source:
+            self._source, self._faces = part, ()
+        if self.form.picks_frozen:
+            self.form.toggle_frozen(faces)
+            QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
+        elif faces:
+            self._faces = faces
 
     def _show_picked(self) -> None:
         self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
@@ -97,43 +111,37 @@ class DeformationPanel:
             return
         self._pick(chosen())
         self._show_picked()
-        self._show_coarse()
+        self._preview()
 
     def _job(self) -> Job:
         """The registration that is set now (InputError where something is missing)."""
         scan = self.form.scan(self._document)
         if self._source is None:
-            raise InputError("Pick faces of the part in the 3D view." if not self.form.whole else
-                             "Pick the part in the 3D view.")
+            raise InputError(tr("Pick the part in the 3D view.") if self.form.whole else
+                             tr("Pick faces of the part in the 3D view."))
         if not self.form.whole and not self._faces:
-            raise InputError("Pick the faces to deform in the 3D view; hold Ctrl for more than one.")
+            raise InputError(tr("Pick the faces to deform in the 3D view; hold Ctrl for more than one."))
         if scan is None:
-            raise InputError("The document holds no scan: import one first.")
+            raise InputError(tr("The document holds no scan: import one first."))
         settings = self.form.settings(self._faces)
         if self._read is None or self._read[0] != (self._source, scan):
             job = make_job(self._source, scan, settings)
             self._read = ((self._source, scan), job.source, job.points)
-            self._preview = Preview(job.source.model.shape, job.points)
         return Job(self._read[1], self._read[2], settings)
 
-    def _show_coarse(self) -> None:
-        """The preview of what is set now, on a part of the points; exact when it rests."""
+    def _preview(self) -> None:
+        """Preview what is set now."""
         if not self._watching or self.form.busy:
             return
-        self._cancel_work()
         try:
             job = self._job()
-            self._draw(job, self._preview.patches(job.settings, coarse=True))
-            self._rest.start(_REST_MS)
+            if self._wished.preview:
+                self._runner.ask(job)
+            else:
+                self.form.show_figures(None, self._hint)
         except FfdsError as refusal:
+            self._runner.stop()
             self._draw_nothing(refusal)
-
-    def _show_exact(self) -> None:
-        """The preview on all points, computed in the background."""
-        if self._watching and not self.form.busy:
-            job, preview = self._job(), self._preview
-            self._worker = running.Worker(lambda progress: preview.patches(job.settings, coarse=False),
-                                          lambda patches: self._draw(job, patches), self._draw_nothing, _silent)
 
     def _draw_nothing(self, failure: BaseException) -> None:
         if not isinstance(failure, FfdsError):
@@ -143,16 +151,19 @@ class DeformationPanel:
         self.form.show_figures(None, self._hint or str(failure))
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
-        self._overlay.cover(*[self.form.scan(self._document)] if patches else [])
-        if not patches:
-            self._overlay.show([])
-            self.form.show_figures(None, "OK registers all faces together: that takes some seconds.")
+        if not self._watching:
             return
         limit = good_limit(np.concatenate([patch.before for patch in patches]))
-        nodes = [mesh_node(patch.points, patch.triangles, packed_colours(patch.values, limit)) for patch in patches]
+        self._overlay.cover(*self._covered(job))
+        self._drawing.show(job.source.model.shape, patches, job.settings.freeze, limit, self._wished.lattice,
+                           job.source.T_document_part)
         self.form.show_size(patches[0].size)
-        self._overlay.show([*nodes, *lattice_nodes([patch.lattice for patch in patches])], job.source.T_document_part)
         self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
+
+    def _covered(self, job: Job) -> list[Any]:
+        """What would hide the preview: the scan, the part and, when it is being changed, the as-built part."""
+        return [item for item in (self.form.scan(self._document), self._source, job.source.item, self._item)
+                if item is not None]
 
     def accept(self) -> bool:
         """OK: compute in the background, then write the document in one undo step and close."""
@@ -164,8 +175,7 @@ class DeformationPanel:
         except FfdsError as refusal:
             running.tell(str(refusal))
             return False
-        self._rest.stop()
-        self._cancel_work()
+        self._runner.stop()
         self.form.set_busy(True)
         self._worker = running.Worker(job.run, lambda _: self._finish(job), self._failed, self.form.show_progress)
         return False
@@ -192,11 +202,6 @@ class DeformationPanel:
         else:
             raise failure
 
-    def _cancel_work(self) -> None:
-        if self._worker is not None:
-            self._worker.cancel()
-            self._worker = None
-
     def reject(self) -> bool:
         """Cancel: drop running work and leave the document as it is."""
         self._close()
@@ -208,8 +213,9 @@ class DeformationPanel:
         self._watching = False
         try:
             Gui.Selection.removeObserver(self)
-            self._rest.stop()
-            self._cancel_work()
+            self._runner.stop()
+            if self._worker is not None:
+                self._worker.cancel()
         finally:
             self._overlay.remove()
             Gui.Selection.clearSelection()
@@ -225,10 +231,7 @@ def _arguments(settings: Settings) -> str:
     plain = Settings()
     shown = [f"faces={list(settings.faces) if settings.faces else None}"]
     shown += [f"{name}={getattr(settings, name)!r}"
-              for name in ("freeze", "method", "lattice", "source_points", "isometry")
+              for name in ("freeze", "method", "lattice", "source_points", "isometry", "stiffness", "gate")
               if getattr(settings, name) != getattr(plain, name)]
     return ", ".join(shown)
 
-
-def _silent(text: str) -> None:
-    """The preview does not say what it is doing."""

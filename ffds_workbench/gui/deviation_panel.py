@@ -16,10 +16,10 @@ from ..objects.scans import scan_points
 from ..registration.raster import make_raster
 from . import running
 from .colours import good_limit, packed_colours
+from .face_on_scan import corner_values, corners, surface_grid
 from .legend import Legend
 from .overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from .panel import choice, length, named, wrapped
-from .preview import corner_values, corners, surface_grid
 from .qt import QtWidgets
 
 Array = NDArray[np.float64]

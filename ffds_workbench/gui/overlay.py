@@ -23,7 +23,7 @@ class Overlay:
 
     def __init__(self, document_name: str) -> None:
         self._view = Gui.getDocument(document_name).ActiveView
-        self._covered: list[tuple[Any, int]] = []
+        self._covered: list[tuple[Any, Any]] = []
         self._root = coin.SoSeparator()
         style = coin.SoPickStyle()
         style.style = coin.SoPickStyle.UNPICKABLE
@@ -43,17 +43,23 @@ class Overlay:
             self._content.addChild(node)
 
     def cover(self, *items: Any) -> None:
-        """Leave these document objects, and no others, undrawn: they would hide the overlay. No property changes."""
+        """Leave these document objects, and no others, undrawn: they would hide the overlay. They can still be picked,
+        and no property changes."""
+        roots = [item.ViewObject.RootNode for item in dict.fromkeys(items)]
+        if [root for root, _ in self._covered] == roots:
+            return
         self._uncover()
-        for item in items:
-            switch = item.ViewObject.SwitchNode
-            self._covered.append((switch, switch.whichChild.getValue()))
-            switch.whichChild = coin.SO_SWITCH_NONE
+        for root in roots:
+            style = coin.SoDrawStyle()
+            style.style = coin.SoDrawStyle.INVISIBLE
+            style.setOverride(True)
+            root.insertChild(style, 0)
+            self._covered.append((root, style))
 
     def _uncover(self) -> None:
         while self._covered:
-            switch, child = self._covered.pop()
-            switch.whichChild = child
+            root, style = self._covered.pop()
+            root.removeChild(style)
 
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
@@ -87,23 +93,62 @@ def points_node(points: Array, colours: NDArray[np.uint32], size: float = 3.0) -
     return node
 
 
-def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32], over: bool = True) -> Any:
-    """A surface in the colours of the legend, unshaded: (n, 3) in mm, (m, 3) indices, (n,) packed colours.
+class ColouredMesh:
+    """A surface in the colours of the legend, unshaded. Its triangles, (m, 3) indices, stay; the rest may change.
 
     ``over`` draws it before what lies in it, a face of the part; else behind, as lines on it need.
     """
+
+    def __init__(self, triangles: NDArray[np.integer], over: bool = True) -> None:
+        self.triangles = triangles
+        self.node = coin.SoSeparator()
+        offset = coin.SoPolygonOffset()
+        offset.factor = offset.units = -2.0 if over else 2.0
+        self.node.addChild(offset)
+        self.node.addChild(_flat_light())
+        bound = coin.SoMaterialBinding()
+        bound.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED
+        self.node.addChild(bound)
+        self._packed, self._places = coin.SoPackedColor(), coin.SoCoordinate3()
+        self.node.addChild(self._packed)
+        self.node.addChild(self._places)
+        self.node.addChild(_faces(triangles))
+
+    def update(self, points: Array, colours: NDArray[np.uint32]) -> None:
+        """Corners (n, 3) in mm and their packed colours (n,)."""
+        self._places.point.setValues(0, len(points), np.ascontiguousarray(points, dtype=np.float32))
+        self._packed.orderedRGBA.setValues(0, len(colours), np.ascontiguousarray(colours, dtype=np.uint32))
+
+
+def mesh_node(points: Array, triangles: NDArray[np.integer], colours: NDArray[np.uint32], over: bool = True) -> Any:
+    """A `ColouredMesh` that stays as it is: (n, 3) in mm, (m, 3) indices, (n,) packed colours."""
+    mesh = ColouredMesh(triangles, over)
+    mesh.update(points, colours)
+    return mesh.node
+
+
+def shaded_node(points: Array, triangles: NDArray[np.integer], colour: tuple[float, float, float]) -> Any:
+    """A surface in one colour, lit: (n, 3) in mm, (m, 3) indices."""
     node = coin.SoSeparator()
+    hints = coin.SoShapeHints()
+    hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+    hints.creaseAngle = 0.5
+    node.addChild(hints)
     offset = coin.SoPolygonOffset()
-    offset.factor = offset.units = -2.0 if over else 2.0
     node.addChild(offset)
-    node.addChild(_flat_light())
-    node.addChild(_colours(colours, coin.SoMaterialBinding.PER_VERTEX_INDEXED))
+    material = coin.SoMaterial()
+    material.diffuseColor = colour
+    node.addChild(material)
     node.addChild(_coordinates(points))
+    node.addChild(_faces(triangles))
+    return node
+
+
+def _faces(triangles: NDArray[np.integer]) -> Any:
     faces = coin.SoIndexedFaceSet()
     index = np.column_stack([triangles, np.full(len(triangles), -1)]).astype(np.int32).ravel()
     faces.coordIndex.setValues(0, len(index), index.tolist())
-    node.addChild(faces)
-    return node
+    return faces
 
 
 def lines_node(lines: Sequence[Array]) -> Any:

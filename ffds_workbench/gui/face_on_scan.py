@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One face and the scan points near it: their deviations from it before and after a displacement. No Qt, no Coin."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..registration.face import FaceGeometry
+from ..registration.footpoints import SurfaceCoordinates, surface_coordinates
+from ..registration.raster import Raster, make_raster
+from ..registration.robust import RobustSettings
+from ..registration.splines import SplineSurface
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+_FAR, _FAR_MEDIANS = 1.0, 8.0
+"""Points farther from the deformed face than this (mm), and than so many times the median, are not its own."""
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """Of scan points from one face, (k,) each: row in the scan, cell of the raster, and mm before and after."""
+
+    index: Index
+    cell: Index
+    before: Array
+    after: Array
+
+    def part(self, which: NDArray[np.bool_]) -> Deviations:
+        """Some of them."""
+        return Deviations(self.index[which], self.cell[which], self.before[which], self.after[which])
+
+    def near(self) -> Deviations:
+        """Those that may be the face's own."""
+        size = np.abs(self.after)
+        return self.part(size < max(_FAR, _FAR_MEDIANS * float(np.median(size)))) if len(size) else self
+
+
+class FaceOnScan:
+    """A face, its raster and the scan points (n, 3) near it."""
+
+    def __init__(self, geometry: FaceGeometry, points: Array) -> None:
+        self.geometry = geometry
+        self.raster: Raster = make_raster(geometry)
+        self.places: SurfaceCoordinates = surface_coordinates(self.raster, points, RobustSettings().reach, 0.0)
+        self.triangles = surface_grid(self.raster)
+
+    def deviations(self, displacement: SplineSurface, every: int = 1) -> Deviations:
+        """Before and after a displacement d(u, v), of every so many points."""
+        places, raster = self.places.part(slice(None, None, every)), self.raster
+        uv = raster.corner + raster.step * np.stack([places.x, places.y], axis=1)
+        cell = places.in_cell[0]
+        moved = displacement(uv) if len(uv) else np.zeros((0, 3))
+        after = places.height - np.einsum("ij,ij->i", moved, raster.normal[cell])
+        return Deviations(places.index, cell, places.height, after)
+
+    def deformed(self, displacement: SplineSurface) -> Array:
+        """The corners of the raster's cells on the deformed face, (n, 3) in mm."""
+        u, v = corners(self.raster)
+        return (self.geometry.surface.on_grid(u, v) + displacement.on_grid(u, v)).reshape(-1, 3)
+
+    def at_corners(self, deviations: Deviations) -> Array:
+        """Mean deviation after at each of them, NaN without data, (n,)."""
+        return _at_corners(self.raster, deviations.cell, deviations.after)
+
+
+def corner_values(raster: Raster, points: Array, deviations: Array) -> Array:
+    """Mean deviation around each corner of the cells, NaN without data; points (k, 3) in mm that lie on the face."""
+    if not len(points):
+        return np.full((raster.shape[0] + 1) * (raster.shape[1] + 1), np.nan)
+    found = surface_coordinates(raster, points, float(np.abs(deviations).max()) + 1.0)
+    return _at_corners(raster, found.in_cell[0], deviations[found.index])
+
+
+def corners(raster: Raster) -> tuple[Array, Array]:
+    """Parameters of the cells' corners, (m + 1,) in u and (n + 1,) in v."""
+    return (raster.corner[0] + raster.step[0] * np.arange(raster.shape[0] + 1),
+            raster.corner[1] + raster.step[1] * np.arange(raster.shape[1] + 1))
+
+
+def surface_grid(raster: Raster) -> Index:
+    """Triangles (k, 3) between the corners of the cells that carry material."""
+    m, n = raster.shape
+    index = np.arange((m + 1) * (n + 1)).reshape(m + 1, n + 1)
+    corner = (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])
+    a, b, c, d = (grid.ravel()[raster.inside] for grid in corner)
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+
+
+def _at_corners(raster: Raster, cell: Index, values: Array) -> Array:
+    """Mean at each corner of the values in the cells around it, NaN where there are none; ((m + 1)·(n + 1),)."""
+    sums = []
+    for weights in (None, values):
+        cells = np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float)
+        around = sum(np.pad(cells, (rows, columns)) for rows in ((0, 1), (1, 0)) for columns in ((0, 1), (1, 0)))
+        for axis, closed in enumerate(raster.periodic):
+            if closed:
+                ends = np.moveaxis(around, axis, 0)
+                ends[0] += ends[-1]
+                ends[-1] = ends[0]
+        sums.append(around.ravel())
+    count, total = sums
+    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A joint solve that is kept warm: coarse lattices, few points, and one step when a setting changes. For previews."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..splines import Array, SplineSurface
+from .isometry import judge_stretch
+from .part import JointPart
+from .problem import Problem, make_problem
+from .settings import JointSettings, Stage, stages
+from .sides import facing
+from .solve import iterate
+from .state import State, start
+
+_SPAN = 30.0
+_POINTS = 6000
+
+
+class LiveJoint:
+    """The joint registration of a part to a scan, coarse and fast.
+
+    Parameters
+    ----------
+    part, scan, settings : as in `register_joint`; the settings are where it starts from
+
+    Raises
+    ------
+    RefusedError : as `register_joint` does
+    """
+
+    def __init__(self, part: JointPart, scan: Array, settings: JointSettings) -> None:
+        some = np.random.default_rng(settings.seed).permutation(len(scan))[:_POINTS]
+        self._problem = make_problem(part, scan[some], _coarse(settings), {})
+        state = start(self._problem)
+        self._state = replace(state, facing=facing(self._problem, state.reach))
+        for stage in stages(settings.schedule, state.reach):
+            if not stage.all_points:
+                self._state = judge_stretch(self._problem, self._state, stage)
+                self._state = _steps(self._problem, stage, self._state, stage.iterations)
+        self._isometry = settings.isometry
+
+    def step(self, settings: JointSettings) -> list[SplineSurface]:
+        """Displacements of all faces, d(u, v) in mm, one step nearer to what these weights and gates ask for."""
+        problem = replace(self._problem, settings=_coarse(settings))
+        stage = replace([stage for stage in settings.schedule if not stage.all_points][-1],
+                        gate=settings.schedule[-1].gate)
+        if settings.isometry != self._isometry:
+            self._state = judge_stretch(problem, replace(self._state, strain=0.0), stage)
+            self._isometry = settings.isometry
+        self._state = _steps(problem, stage, self._state, 1)
+        lattices = problem.lattices
+        return [lattices.spline(index, self._state.control_points) for index in range(len(problem.part.faces))]
+
+
+def _coarse(settings: JointSettings) -> JointSettings:
+    return replace(settings, span=max(_SPAN, settings.span), refine=False)
+
+
+def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:
+    """Gauss-Newton steps, without the pull of visible borders: it changes little here and takes half of the time."""
+    state = replace(state, nearest=None)
+    for _ in range(most):
+        state = iterate(problem, replace(stage, soft=False), state)
+        if state.last_step < stage.enough:
+            break
+    return state
