@@ -6,6 +6,7 @@ face do.
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,10 +19,13 @@ from .lattice import Index, Lattices
 from .raster import Places
 from .samples import Samples, concatenate
 
-_REACH = 2.5
+_REACH = 4.0
+_FARTHEST = 2.0
+"""Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
 _SHARP = 0.7
 _RANK = 3
-"""The edge lies beyond the third outermost point, by what three points take of the density."""
+"""The edge lies beyond the third outermost point, by what three points take of the density: two and a half, since
+sensors take points in rows, which spread more evenly than chance does."""
 _BAND = (0.5, 2.0)
 """Distance inside the outermost points, in mm, between which the density is counted."""
 _FEWEST = 12
@@ -30,6 +34,8 @@ _FLOOR = 0.05
 """Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
 _HUBER = 2.0
 _DISCARD = 3.0
+_NEIGHBOURS = 4
+"""Edge samples on either side whose median tells whether one of them is an outlier."""
 _MOST_POINTS = 250_000
 
 
@@ -86,20 +92,22 @@ def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places, distance: 
     return EdgeSides(signs, convex & (np.einsum("nx,nx->n", *normal) < _SHARP))
 
 
-def near_edges(points: Array, edges: EdgeSamples, control_points: Array) -> Array:
-    """The scan points (at most some 250 000, evenly taken) that lie near any edge of the current shape: (n, 3)."""
+def near_edges(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array) -> Array:
+    """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape: (n, 3)."""
     points = points[:: 1 + len(points) // _MOST_POINTS]
-    if not len(edges.edge):
+    if not sides.sharp.any():
         return points[:0]
     place = edges.first.nominal[0] + edges.first.displacement(control_points)
-    distance = cKDTree(place).query(points, distance_upper_bound=2 * _REACH, workers=-1)[0]
+    distance = cKDTree(place[sides.sharp]).query(points, distance_upper_bound=1.5 * _REACH, workers=-1)[0]
     return points[np.isfinite(distance)]
 
 
 def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
     """Visible borders at the current shape, from points (n, 3) near the edges (`near_edges`)."""
     place = edges.first.nominal[0] + edges.first.displacement(control_points)
-    row = cKDTree(place).query(points, distance_upper_bound=_REACH, workers=-1)[1] if len(place) else np.zeros(0, int)
+    sharp = np.append(np.flatnonzero(sides.sharp), len(place))
+    row = (sharp[cKDTree(place[sharp[:-1]]).query(points, distance_upper_bound=_REACH, workers=-1)[1]]
+           if len(points) else np.zeros(0, int))
     near = np.flatnonzero(row < len(place))
     points, row = points[near], row[near]
     pairs = (edges.first, edges.second), (edges.second, edges.first)
@@ -125,19 +133,22 @@ def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, othe
     local = points - place[row]
     across = np.einsum("nx,nx->n", local, out[row])
     on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * noise
-    on_other = ((np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise)
-                & (np.einsum("nx,nx->n", local, away[row]) < -_BAND[0]) & ~on_seen)
+    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise) & (
+        np.einsum("nx,nx->n", local, away[row]) < -_BAND[0])
+    unlike = ~on_seen & (on_other | (across > -_BAND[0]))
     outermost = _rank_from_top(row[on_seen], across[on_seen], count)
     inside = outermost[row] - across
-    population = np.bincount(row[on_seen & (inside > _BAND[0]) & (inside < _BAND[1])], minlength=count)
-    per_mm = np.maximum(population / (_BAND[1] - _BAND[0]), 1e-9)
-    offset = outermost + _RANK / per_mm
-    good = (sharp & (population >= _FEWEST) & (np.bincount(row[on_other], minlength=count) < _UNSEEN * population)
-            & (np.abs(offset) < _REACH - _BAND[0]))
+    population, strange, samples = (
+        _running(np.nansum, edges.edge, values) for values in
+        (_count(row[on_seen & (inside > _BAND[0]) & (inside < _BAND[1])], count), _count(row[unlike], count),
+         np.ones(count)))
+    per_mm = np.maximum(population / samples / (_BAND[1] - _BAND[0]), 1e-9)
+    offset = outermost + (_RANK - 0.5) / per_mm
+    good = sharp & (population >= _FEWEST) & (strange < _UNSEEN * population) & (np.abs(offset) < _FARTHEST)
     if not good.any():
         return nothing
     sigma = np.hypot(_FLOOR, np.sqrt(_RANK) / per_mm)
-    off = np.abs(offset - _edge_medians(edges.edge, offset, good)) / (_HUBER * sigma)
+    off = np.abs(offset - _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))) / (_HUBER * sigma)
     good &= off < _DISCARD
     return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * sigma**2), 0.0)
 
@@ -150,19 +161,25 @@ def _across(edges: EdgeSamples, side: Samples, sign: Array, control_points: Arra
 
 
 def _rank_from_top(row: Index, value: Array, count: int) -> Array:
-    """The third largest value of every row; −inf where there are fewer."""
+    """The third largest value of every row; NaN where there are fewer."""
     order = np.lexsort((value, row))
     end = np.searchsorted(row[order], np.arange(count), side="right")
     start = np.searchsorted(row[order], np.arange(count), side="left")
     enough = end - start >= _RANK
-    result = np.full(count, -np.inf)
+    result = np.full(count, np.nan)
     result[enough] = value[order[end[enough] - _RANK]]
     return result
 
 
-def _edge_medians(edge: Index, value: Array, good: NDArray[np.bool_]) -> Array:
-    centre = np.zeros(len(edge))
-    for number in np.unique(edge[good]):
-        here = edge == number
-        centre[here] = np.median(value[here & good])
-    return centre
+def _count(row: Index, count: int) -> Array:
+    return np.bincount(row, minlength=count).astype(float)
+
+
+def _running(gather: Callable[..., Array], edge: Index, values: Array) -> Array:
+    """``gather``, which passes over NaN, of the values around every sample on the same edge: (n,)."""
+    shifts = range(-_NEIGHBOURS, _NEIGHBOURS + 1)
+    window = np.stack([np.where(np.roll(edge, k) == edge, np.roll(values, k), np.nan) for k in shifts])
+    known = np.isfinite(window).any(axis=0)
+    result = np.full(len(edge), np.nan)
+    result[known] = gather(window[:, known], axis=0)
+    return result

@@ -77,7 +77,7 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
     state = replace(judge_stretch(problem, state, stage), nearest=None)
     if stage.soft:
-        near = near_edges(problem.scan, problem.couplings.edges, state.control_points)
+        near = near_edges(problem.scan, problem.couplings.edges, problem.sides, state.control_points)
         state = replace(state, near=near, factor=None if stage.all_points else state.factor)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, state)
