@@ -61,10 +61,16 @@ class SurfaceCoordinates:
 
     def on_face(self, raster: Raster, margin: float) -> SurfaceCoordinates:
         """Those whose foot point lies inside the trims, at least ``margin`` mm from them."""
+        return self.part(np.flatnonzero(self.depth(raster) >= margin))
+
+    def depth(self, raster: Raster) -> Array:
+        """How far the foot points lie inside the trims, in mm; negative outside."""
         cell, dx, dy = self.in_cell
         slope_x, slope_y = raster.depth_slopes
-        depth = raster.depth[cell] + slope_x[cell] * dx + slope_y[cell] * dy
-        return self.part(np.flatnonzero(depth >= margin))
+        depth = raster.depth[cell]
+        depth += slope_x[cell] * dx
+        depth += slope_y[cell] * dy
+        return depth
 
     def sample(self, most: int) -> SurfaceCoordinates:
         """At most ``most`` of them, drawn at random but always the same."""
@@ -97,10 +103,44 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
     in the quadratic frames of the cells, the last one in the cell it ends in: the height is right to third order of the
     cell size.
     """
+    found = _Collector(len(points), raster)
+    for some in _located(raster, points, reach):
+        found.add(some if margin is None else some.on_face(raster, margin))
+    return found.all()
+
+
+def inner_and_rim(raster: Raster, points: Array, reach: float, margin: float
+                  ) -> tuple[SurfaceCoordinates, SurfaceCoordinates]:
+    """The same for the trimmed face: those at least ``margin`` mm from the trims, and those nearer to them."""
+    inner, rim = _Collector(len(points), raster), _Collector(len(points), raster)
+    for some in _located(raster, points, reach):
+        depth = some.depth(raster)
+        inner.add(some.part(np.flatnonzero(depth >= margin)))
+        rim.add(some.part(np.flatnonzero((depth >= 0) & (depth < margin))))
+    return inner.all(), rim.all()
+
+
+class _Collector:
+    """Room for as many points as the scan has; memory is touched, and so taken, only as far as points are added."""
+
+    def __init__(self, most: int, raster: Raster) -> None:
+        x, y, height = np.empty((3, most))
+        self._room = SurfaceCoordinates(np.empty(most, dtype=np.intp), x, y, height, raster.shape)
+        self._count = 0
+
+    def add(self, some: SurfaceCoordinates) -> None:
+        part = slice(self._count, self._count + len(some.x))
+        for name in _COLUMNS:
+            getattr(self._room, name)[part] = getattr(some, name)
+        self._count = part.stop
+
+    def all(self) -> SurfaceCoordinates:
+        return self._room.part(slice(self._count))
+
+
+def _located(raster: Raster, points: Array, reach: float) -> Iterator[SurfaceCoordinates]:
+    """The scan points within reach and over the parameter range, piece by piece."""
     locate = _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
-    x, y, height = np.empty((3, len(points)))      # touched, and so taken, no farther than points are found
-    found = SurfaceCoordinates(np.empty(len(points), dtype=np.intp), x, y, height, raster.shape)
-    count = 0
     for first in range(0, len(points), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach
@@ -109,15 +149,8 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
                 valid &= (a >= 0) & (a < cells)
         chosen = np.flatnonzero(valid)
         index = chosen if index is None else index[chosen]
-        some = SurfaceCoordinates(index + first, raster.wrapped(x[chosen], 0), raster.wrapped(y[chosen], 1),
-                                  height[chosen], raster.shape)
-        if margin is not None:
-            some = some.on_face(raster, margin)
-        part = slice(count, count + len(some.x))
-        for name in _COLUMNS:
-            getattr(found, name)[part] = getattr(some, name)
-        count = part.stop
-    return found.part(slice(count))
+        yield SurfaceCoordinates(index + first, raster.wrapped(x[chosen], 0), raster.wrapped(y[chosen], 1),
+                                 height[chosen], raster.shape)
 
 
 def _flat_locator(raster: Raster) -> Locator:

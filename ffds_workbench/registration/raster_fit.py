@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +20,17 @@ from .footpoints import SurfaceCoordinates, newton_in_cells
 from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
 from .raster import Raster, dot
 from .splines import Array, SplineSurface, basis_matrix, tensor_product
-from .start import Layers, SmallMotion, tukey
+from .start import Layers, SmallMotion, plateau, tukey
 
 Index = NDArray[np.intp]
 
 _NOISE_CUT = 4.685
 """Tukey's constant: 95 % efficiency on normal noise."""
+_RIM_BLOCK = 8
+"""Points near the trims are judged in blocks of 8 × 8 cells."""
+_STRAY, _OFF = 0.1, 0.2
+"""A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
+0.2 standard deviations of the surface, or three of its own."""
 _MOST_NOISIER = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
@@ -138,7 +144,7 @@ class RasterFit:
         return State(d, d_x, d_y)
 
     def step(self, state: State, data: SurfaceCoordinates | Layers, noise: float, stiffness: float,
-             gate: float) -> State:
+             gate: float, rim: SurfaceCoordinates | None = None) -> State:
         """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
@@ -147,9 +153,11 @@ class RasterFit:
         noise : standard deviation of a point along the normal, in mm
         stiffness : multiplier of the bending energy
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
+        rim : further scan points, near the trims: they count where they agree with the current surface
         """
         graph = self._graph(state)
-        seen = self._cells(graph, data, max(gate, _NOISE_CUT * noise))
+        gate = max(gate, _NOISE_CUT * noise)
+        seen = self._cells(graph, data, gate, None if rim is None else self._agreeing(graph, rim, noise, gate))
         mean = np.divide(seen.moment, seen.weight, out=np.zeros_like(seen.weight), where=seen.weight > 0)
         certainty = np.where(graph.usable, seen.weight, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
@@ -196,13 +204,27 @@ class RasterFit:
         cosine = dot(normal, raster.normal[np.where(below >= 0, below, cells)])
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
 
-    def _cells(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> _Cells:
+    def _agreeing(self, graph: _Graph, rim: SurfaceCoordinates, noise: float, gate: float) -> SurfaceCoordinates:
+        """The points of the blocks of the rim in which hardly anything else than the face is seen."""
+        cell, residual = self._residuals(graph, rim)
+        rows, columns = (count // _RIM_BLOCK + 1 for count in self.raster.shape)
+        i, j = np.divmod(cell, self.raster.shape[1])
+        block = i // _RIM_BLOCK * columns + j // _RIM_BLOCK
+        near = np.abs(residual) <= gate
+        total, hits = (np.bincount(block, some, rows * columns) for some in (None, near))
+        mean = np.bincount(block, np.where(near, residual, 0), rows * columns) / np.maximum(hits, 1)
+        off = noise * np.maximum(_OFF, 3 / np.sqrt(np.maximum(hits, 1)))
+        used = (hits >= (1 - _STRAY) * total) & (np.abs(mean) <= off)
+        return rim.part(np.flatnonzero(used[block] & near))
+
+    def _cells(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float,
+               rim: SurfaceCoordinates | None = None) -> _Cells:
         """Weigh the data and sum them up cell by cell."""
         cells = len(self.raster.inside)
         sums, spread = np.zeros((3, cells)), []
         parts: Iterable[SurfaceCoordinates | Layers] = [data]
         if isinstance(data, SurfaceCoordinates):
-            parts = data.chunks()
+            parts = chain(data.chunks(), [] if rim is None else [rim])
         every = max(1, len(data.x) // self.settings.sample)
         for part in parts:
             cell, residual, weight = self._weighed(graph, part, gate)
@@ -217,7 +239,7 @@ class RasterFit:
         """Material cell, residual and weight of scan points or layers."""
         if isinstance(data, SurfaceCoordinates):
             cell, residual = self._residuals(graph, data)
-            return cell, residual, tukey(residual, gate)
+            return cell, residual, plateau(residual, gate)
         cell, residual = self._residuals(graph, data.as_points())
         return cell, residual, tukey(residual, gate) * data.count * data.outermost(residual, gate)
 

@@ -16,7 +16,7 @@ from ..errors import RefusedError
 from .control_lattice import displacement_lattice
 from .coverage import covered_share
 from .face import FaceGeometry
-from .footpoints import SurfaceCoordinates, surface_coordinates
+from .footpoints import SurfaceCoordinates, inner_and_rim
 from .lattice_size import automatic_lattice, coarse_lattice
 from .normals import facing, scan_normals
 from .patches import main_patches, patches, proven
@@ -50,7 +50,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     settings = settings or RobustSettings()
     raster = make_raster(face)
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
-    points = surface_coordinates(raster, scan, settings.reach, margin)
+    points, rim = inner_and_rim(raster, scan, settings.reach, margin)
     _check_points(face, points, settings)
     layers = dense_layers(raster, points.sample(settings.sample))
     if np.mean(~layers.thin) > _MANY_WALLS and len(points.x) <= _MOST_NORMALS:
@@ -82,8 +82,9 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     fit.ignored = ignored
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
-        some = points if k == len(settings.final) - 1 else points.sample(settings.sample)
-        state = fit.step(state, some, noise, stiffness, gate)
+        last = k == len(settings.final) - 1
+        some = points if last else points.sample(settings.sample)
+        state = fit.step(state, some, noise, stiffness, gate, rim if last else None)
         noise = state.noise
     _check_found(face, state.points)
     coverage = covered_share(raster, state.weights)

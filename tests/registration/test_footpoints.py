@@ -6,7 +6,7 @@ import pytest
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.face import FaceGeometry
-from ffds_workbench.registration.footpoints import surface_coordinates
+from ffds_workbench.registration.footpoints import inner_and_rim, surface_coordinates
 from ffds_workbench.registration.projection import project
 from ffds_workbench.registration.raster import make_raster
 
@@ -56,6 +56,18 @@ def test_projection_is_exact(ball):
     height = random.uniform(-5, 5, 2000)
     found = project(ball.surface, way * (RADIUS + height)[:, None])
     np.testing.assert_allclose(found.height, height, atol=1e-5)
+
+
+def test_inner_and_rim_share_the_face():
+    scan = sheet.scan("D", 0)
+    raster = make_raster(sheet.nominal())
+    inner, rim = inner_and_rim(raster, scan, 10.0, 0.7)
+    x, y = scan[:, 0], scan[:, 1]
+    nearest, next_nearest = np.sort([x, sheet.SIZE[0] - x, y, sheet.SIZE[1] - y], axis=0)[:2]
+    nearest[next_nearest < 2.5] = np.nan      # in the corners, within two cells, depth is not linear as it is taken
+    assert np.nanmin(nearest[inner.index]) > 0.6 and np.nanmax(nearest[rim.index]) < 0.8
+    whole = surface_coordinates(raster, scan, 10.0, 0.0).index
+    np.testing.assert_array_equal(np.sort(np.concatenate([inner.index, rim.index])), whole)
 
 
 def test_points_elsewhere_are_left_out():
