@@ -46,7 +46,8 @@ def all_together(part: Workpiece, cloud: PointCloud, freeze: Collection[str], is
                  tuning: Tuning) -> Deformation:
     """Register the whole part in one solve; faces that the scan does not observe are carried along."""
     with watch.stage("register", "Registering all faces together"):
-        found = register_joint(joint_part(part, freeze), cloud.points, replace(tuning.joint(), isometry=isometry))
+        found = register_joint(joint_part(part, freeze), cloud.points, replace(tuning.joint(), isometry=isometry),
+                               lambda stage, share: watch.tell(f"Registering all faces together: {stage}"))
     with watch.stage("rebuild", "Closing the edges"):
         moving = {index: face.displacement for index, face in enumerate(found.faces) if face.name not in freeze}
         displacements = closing_displacements(part, moving)

@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import InputError
 from ..objects.job import Settings
 from .legend import Legend
-from .panel import choice, folded, length, named, spin, wrapped
+from .panel import ProgressBar, choice, folded, length, named, spin, wrapped
 from .preferences import preferences
 from .qt import QtCore, QtWidgets
 from .stiffness_slider import StiffnessSlider
@@ -75,8 +75,7 @@ class DeformationForm(QtWidgets.QWidget):
         self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
         self._message.setStyleSheet("color: #b3401f")
         self._legend = named(Legend(), "FfdsLegend", tr("Deviation of the scan from the deformed faces"))
-        self._progress = named(QtWidgets.QProgressBar(), "FfdsProgressBar")
-        self._progress.setRange(0, 0)
+        self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._doing = wrapped("FfdsDoing")
         for widget in (self._progress, self._doing):
             widget.setVisible(False)
@@ -253,6 +252,8 @@ class DeformationForm(QtWidgets.QWidget):
     def show_progress(self, text: str) -> None:
         """Say what is being done, nothing for no work."""
         self._doing.setText(f"{text} …")
+        self._progress.setValue(0 if not text else self._progress.value())
+        self._progress.step()
         self._doing.setVisible(bool(text))
         self._progress.setVisible(bool(text))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,8 @@ Index = NDArray[np.intp]
 
 _FAR, _FAR_MEDIANS = 1.0, 8.0
 """Points farther from the deformed face than this (mm), and than so many times the median, are not its own."""
+_OUTLINE = 129
+"""Points of a drawn trim."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,15 @@ class FaceOnScan:
         u, v = corners(self.raster)
         return (self.geometry.surface.on_grid(u, v) + displacement.on_grid(u, v)).reshape(-1, 3)
 
+    def outline(self, displacement: SplineSurface) -> list[Array]:
+        """The trims on the deformed face, closed polylines, each (k, 3) in mm."""
+        return [self.geometry.surface(uv) + displacement(uv) for uv in self._trims]
+
+    @cached_property
+    def _trims(self) -> list[Array]:
+        """The trims, no finer than they need to be for a drawing."""
+        return [uv[np.linspace(0, len(uv) - 1, min(len(uv), _OUTLINE)).astype(int)] for uv in self.geometry.trims]
+
     def at_corners(self, deviations: Deviations) -> Array:
         """Mean deviation after at each of them, NaN without data, (n,)."""
         return _at_corners(self.raster, deviations.cell, deviations.after)
@@ -91,16 +103,21 @@ def surface_grid(raster: Raster) -> Index:
 
 
 def _at_corners(raster: Raster, cell: Index, values: Array) -> Array:
-    """Mean at each corner of the values in the cells around it, NaN where there are none; ((m + 1)·(n + 1),)."""
-    sums = []
-    for weights in (None, values):
-        cells = np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float)
-        around = sum(np.pad(cells, (rows, columns)) for rows in ((0, 1), (1, 0)) for columns in ((0, 1), (1, 0)))
-        for axis, closed in enumerate(raster.periodic):
-            if closed:
-                ends = np.moveaxis(around, axis, 0)
-                ends[0] += ends[-1]
-                ends[-1] = ends[0]
-        sums.append(around.ravel())
-    count, total = sums
+    """Mean at each corner of the values in the cells around it, or about it where these are empty, NaN where there are
+    none; ((m + 1)·(n + 1),)."""
+    count, total = (np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float)
+                    for weights in (None, values))
+    near, wide = ([_summed(sums, reach, raster.periodic) for sums in (count, total)] for reach in (1, 2))
+    count, total = (np.where(near[0] > 0, close, far).ravel() for close, far in zip(near, wide, strict=True))
     return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)
+
+
+def _summed(cells: Array, reach: int, periodic: tuple[bool, bool]) -> Array:
+    """Sums over the 2 · reach cells on either axis about each corner, (m, n) to (m + 1, n + 1)."""
+    for axis, closed in enumerate(periodic):
+        width = [(reach, reach) if k == axis else (0, 0) for k in (0, 1)]
+        padded = np.cumsum(np.pad(cells, width, mode="wrap" if closed else "constant"), axis=axis)
+        before = np.insert(np.delete(padded, -1, axis=axis), 0, 0.0, axis=axis)
+        ends = np.arange(cells.shape[axis] + 1)
+        cells = np.take(padded, ends + 2 * reach - 1, axis=axis) - np.take(before, ends, axis=axis)
+    return cells

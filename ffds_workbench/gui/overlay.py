@@ -23,11 +23,9 @@ class Overlay:
 
     def __init__(self, document_name: str) -> None:
         self._view = Gui.getDocument(document_name).ActiveView
-        self._covered: list[tuple[Any, Any]] = []
+        self._covered: list[tuple[Any, Any, Any]] = []
         self._root = coin.SoSeparator()
-        style = coin.SoPickStyle()
-        style.style = coin.SoPickStyle.UNPICKABLE
-        self._root.addChild(style)
+        self._root.addChild(_unpickable())
         self._frame = coin.SoMatrixTransform()
         self._root.addChild(self._frame)
         self._content = coin.SoGroup()
@@ -43,23 +41,30 @@ class Overlay:
             self._content.addChild(node)
 
     def cover(self, *items: Any) -> None:
-        """Leave these document objects, and no others, undrawn: they would hide the overlay. They can still be picked,
-        and no property changes."""
-        roots = [item.ViewObject.RootNode for item in dict.fromkeys(items)]
-        if [root for root, _ in self._covered] == roots:
+        """Leave these document objects, and no others, undrawn: they would hide the overlay. No property changes.
+
+        Parts can still be picked; scans cannot, they would catch what is meant for the parts.
+        """
+        wanted = list(dict.fromkeys(items))
+        if [item for item, _, _ in self._covered] == wanted:
             return
         self._uncover()
-        for root in roots:
+        for item in wanted:
             style = coin.SoDrawStyle()
             style.style = coin.SoDrawStyle.INVISIBLE
             style.setOverride(True)
-            root.insertChild(style, 0)
-            self._covered.append((root, style))
+            group = coin.SoGroup()
+            group.addChild(style)
+            if item.isDerivedFrom("Points::Feature"):
+                group.addChild(_unpickable())
+            root = item.ViewObject.RootNode
+            root.insertChild(group, 0)
+            self._covered.append((item, root, group))
 
     def _uncover(self) -> None:
         while self._covered:
-            root, style = self._covered.pop()
-            root.removeChild(style)
+            _, root, group = self._covered.pop()
+            root.removeChild(group)
 
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
@@ -191,6 +196,13 @@ def _lines(node: Any, lines: Sequence[Array], colour: tuple[float, float, float]
     strips.numVertices.setValues(0, len(counts), counts)
     node.addChild(strips)
     return node
+
+
+def _unpickable() -> Any:
+    style = coin.SoPickStyle()
+    style.style = coin.SoPickStyle.UNPICKABLE
+    style.setOverride(True)
+    return style
 
 
 def _flat_light() -> Any:

@@ -6,6 +6,9 @@ from typing import Any
 
 from .qt import QtWidgets
 
+_SHORT = 6
+"""Letters of a list's entries that are seen even in a narrow panel."""
+
 
 def named(widget: Any, name: str, tip: str = "") -> Any:
     """The widget with an object name, by which tests and style sheets find it, and a tooltip."""
@@ -38,6 +41,9 @@ def choice(name: str, entries: list[tuple[str, Any]], tip: str) -> Any:
     box = named(QtWidgets.QComboBox(), name, tip)
     for text, value in entries:
         box.addItem(text, value)
+    box.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+    box.setMinimumContentsLength(_SHORT)
+    box.setSizePolicy(QtWidgets.QSizePolicy.Expanding, QtWidgets.QSizePolicy.Fixed)
     return box
 
 
@@ -60,6 +66,24 @@ def folded(title: str, name: str, content: Any) -> Any:
     column.addWidget(button)
     column.addWidget(content)
     return holder
+
+
+class ProgressBar(QtWidgets.QProgressBar):
+    """A bar for work of unknown length: every step takes it a part of the rest further.
+
+    The bar that Qt has for this never stands still, and takes the time of half a processor from the work itself.
+    """
+
+    _RANGE, _SHARE = 1000, 0.2
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setRange(0, self._RANGE)
+        self.setTextVisible(False)
+
+    def step(self) -> None:
+        """Something was finished."""
+        self.setValue(self.value() + round(self._SHARE * (self._RANGE - self.value())))
 
 
 def wrapped(name: str) -> Any:

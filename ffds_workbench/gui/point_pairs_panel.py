@@ -12,7 +12,7 @@ from ..errors import FfdsError, InputError
 from ..objects.manual_alignment import prepare
 from . import running
 from .overlay import Overlay, points_node
-from .panel import named, wrapped
+from .panel import ProgressBar, named, wrapped
 from .qt import QtCore, QtWidgets
 
 _PAIRS = 3
@@ -48,8 +48,7 @@ class PointPairsPanel:
         self._refine = named(QtWidgets.QCheckBox("Fine alignment from there"), "FfdsRefine",
                              "Go on by closest points; without it the three pairs alone decide")
         self._refine.setChecked(True)
-        self._progress = named(QtWidgets.QProgressBar(), "FfdsProgressBar")
-        self._progress.setRange(0, 0)
+        self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._progress.setVisible(False)
         column = QtWidgets.QVBoxLayout(self.form)
         for widget in (self._hint, self._state, self._back, self._refine, self._message, self._progress):
@@ -127,7 +126,7 @@ class PointPairsPanel:
             self._message.setText(str(refusal))
             return False
         self._set_busy(True)
-        self._worker = running.Worker(work, lambda _: self._finish(), self._failed, self._hint.setText)
+        self._worker = running.Worker(work, lambda _: self._finish(), self._failed, self._told)
         return False
 
     def _finish(self) -> None:
@@ -146,7 +145,12 @@ class PointPairsPanel:
             raise failure
         self._message.setText(f"{failure} Or leave out the fine alignment.")
 
+    def _told(self, text: str) -> None:
+        self._hint.setText(text)
+        self._progress.step()
+
     def _set_busy(self, busy: bool) -> None:
+        self._progress.setValue(0)
         self._progress.setVisible(busy)
         for widget in (self._back, self._refine):
             widget.setEnabled(not busy)

@@ -44,6 +44,7 @@ class Patch:
     name : "Face6"
     lattice : its control lattice before and after, None where a preview has another than the result
     points, triangles : the deformed face, (n, 3) in mm and (m, 3)
+    outline : its trims, closed polylines, each (k, 3) in mm
     values : (n,) mean deviation of the scan there in mm, NaN without data
     before, after : (k,) deviations of its scan points in mm
     coverage : share of the face that the scan observes
@@ -54,6 +55,7 @@ class Patch:
     lattice: Lattice | None
     points: Array
     triangles: NDArray[np.intp]
+    outline: list[Array]
     values: Array
     before: Array
     after: Array
@@ -127,8 +129,8 @@ def figures(patches: Sequence[Patch]) -> tuple[float, float, float, float, float
 def _patch(face: FaceOnScan, deviations: Deviations, displacement: SplineSurface, coverage: float,
            with_lattice: bool) -> Patch:
     lattice = draw_lattice(face.geometry.surface, displacement) if with_lattice else None
-    return Patch(face.geometry.name, lattice, face.deformed(displacement), face.triangles, face.at_corners(deviations),
-                 deviations.before, deviations.after, coverage, _size(displacement))
+    return Patch(face.geometry.name, lattice, face.deformed(displacement), face.triangles, face.outline(displacement),
+                 face.at_corners(deviations), deviations.before, deviations.after, coverage, _size(displacement))
 
 
 def _register(geometry: FaceGeometry, points: Array, settings: Settings, coarse: bool) -> FaceRegistration:

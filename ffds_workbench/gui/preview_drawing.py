@@ -35,7 +35,8 @@ class PreviewDrawing:
             mesh.update(patch.points, packed_colours(patch.values, limit))
         lattices = [patch.lattice for patch in patches if patch.lattice is not None] if with_lattice else []
         others = self._rest(shape, frozenset(patch.name for patch in patches), frozenset(frozen))
-        self._overlay.show([others, *(mesh.node for mesh in self._meshes), *lattice_nodes(lattices)], frame)
+        outlines = lines_node([line for patch in patches for line in patch.outline])
+        self._overlay.show([others, outlines, *(mesh.node for mesh in self._meshes), *lattice_nodes(lattices)], frame)
 
     def _rest(self, shape: Part.Shape, deformed: frozenset[str], frozen: frozenset[str]) -> Any:
         """The faces that are not deformed, and the edges that are not theirs."""

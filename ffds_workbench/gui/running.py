@@ -11,10 +11,12 @@ from typing import Any
 import FreeCADGui as Gui
 
 from ..errors import FfdsError
+from .panel import ProgressBar
 from .qt import QtCore, QtWidgets, execute
+from .translating import tr
 
 ACTIONS = "ffds_workbench.objects.actions"
-_POLL_MS = 30
+_POLL_MS = 15
 
 
 class Cancelled(Exception):
@@ -120,11 +122,15 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
     Cancelled : the user pressed Cancel
     Exception : whatever the work raised
     """
-    dialog = QtWidgets.QProgressDialog(title, "Cancel", 0, 0, Gui.getMainWindow())
+    dialog = QtWidgets.QProgressDialog(title, tr("Cancel"), 0, 0, Gui.getMainWindow())
+    bar = ProgressBar()
+    dialog.setBar(bar)
     dialog.setObjectName("FfdsProgress")
     dialog.setWindowTitle("FFDS")
     dialog.setWindowModality(QtCore.Qt.ApplicationModal)
+    dialog.setRange(bar.minimum(), bar.maximum())
     dialog.setMinimumDuration(300)
+    dialog.setAutoReset(False)
     loop = QtCore.QEventLoop()
     outcome: dict[str, Any] = {}
 
@@ -132,8 +138,11 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
         outcome.setdefault(kind, value)
         loop.quit()
 
-    worker = Worker(work, lambda value: ended("value", value), lambda failure: ended("failure", failure),
-                    dialog.setLabelText)
+    def told(text: str) -> None:
+        dialog.setLabelText(text)
+        bar.step()
+
+    worker = Worker(work, lambda value: ended("value", value), lambda failure: ended("failure", failure), told)
     dialog.canceled.connect(lambda: ended("failure", Cancelled()))
     dialog.setValue(0)
     try:
