@@ -115,7 +115,7 @@ def _grid() -> tuple[Array, Array]:
 
 
 def _deformed(displacement: SplineSurface, x: Array, y: Array) -> Array:
-    place = np.stack(np.meshgrid(x, y, indexing="ij") + [np.zeros((len(x), len(y)))], axis=-1)
+    place = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1)
     return place + displacement.on_grid(x, y)
 
 

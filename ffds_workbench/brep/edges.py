@@ -113,6 +113,27 @@ class Trace:
         return len(self.surface.knots_u) + len(self.surface.knots_v)
 
 
+@dataclass(frozen=True)
+class PlacedCurve:
+    """An edge's own curve over its range, and the matrix (4, 4) that takes it into world coordinates."""
+
+    curve: Curve
+    matrix: Array
+    first: float
+    last: float
+
+    def at(self, fraction: Array) -> Array:
+        """Points at fractions of the edge's range, (n,) in [0, 1] to (n, 3)."""
+        points = self.curve(self.first + fraction * (self.last - self.first))
+        return points @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    def spans(self) -> int:
+        """Number of spans of the curve."""
+        if isinstance(self.curve, Line):
+            return 0
+        return len(self.curve.breaks()) + (len(self.curve.knots) if isinstance(self.curve, Spline) else 0)
+
+
 def _repeated(knots: Array) -> Array:
     """Knots of multiplicity two and more, with their repetitions."""
     distinct, first, count = np.unique(np.round(knots, 12), return_index=True, return_counts=True)
@@ -164,18 +185,11 @@ def _without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: flo
     return np.repeat(distinct, np.where(turned, np.minimum(count, 3), np.minimum(count, 2)))
 
 
-def largest_gap(curve: Curve, matrix: Array, first: float, last: float, traces: Sequence[Trace]) -> float:
-    """Largest distance in mm between an edge's curve and its traces at the same parameter, densely sampled.
-
-    Parameters
-    ----------
-    matrix : (4, 4), the curve's own coordinates to the world's
-    """
+def largest_gap(curve: PlacedCurve, traces: Sequence[Trace]) -> float:
+    """Largest distance in mm between an edge's curve and its traces at the same parameter, densely sampled."""
     if not traces:
         return 0.0
-    spans = max(trace.spans() for trace in traces)
-    if not isinstance(curve, Line):
-        spans += len(curve.breaks()) + (len(curve.knots) if isinstance(curve, Spline) else 0)
+    spans = max(trace.spans() for trace in traces) + curve.spans()
     fraction = np.linspace(0.0, 1.0, _GAP_SAMPLES + _GAP_SAMPLES_PER_SPAN * spans)
-    points = curve(first + fraction * (last - first)) @ matrix[:3, :3].T + matrix[:3, 3]
+    points = curve.at(fraction)
     return max(float(np.linalg.norm(trace.at(fraction) - points, axis=1).max()) for trace in traces)

@@ -21,6 +21,8 @@ from .step_text import Decoration
 
 _EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 _DOCUMENT = ".fcstd"
+_MOST_UNCERTAIN = 0.001
+"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
 FORMATS = ".step .stp .iges .igs .brep .FCStd"
 OUTPUT_FORMATS = (".step", ".stp", ".brep", _DOCUMENT)
 
@@ -201,12 +203,18 @@ def _write_step(model: Model, path: Path) -> None:
     if not path.exists() or not step_text.is_complete(path):
         raise RefusedError("The STEP file could not be written whole: is the disk full?")
     decoration = replace(model.decoration, product=model.label)
-    path.write_text(step_text.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape)), "utf-8")
+    text = step_text.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape))
+    path.write_text(step_text.with_uncertainty(text, min(_tolerance(model.shape), _MOST_UNCERTAIN)), "utf-8")
     copy = Part.read(str(path))
     if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):
         raise RefusedError("The STEP file does not hold all faces of the result: write .brep or .FCStd.")
     if not copy.isValid():
         raise RefusedError("The STEP file does not read back as a valid shape: write .brep or .FCStd.")
+
+
+def _tolerance(shape: Part.Shape) -> float:
+    """Largest tolerance of an edge or vertex in mm."""
+    return max((part.Tolerance for part in (*shape.Edges, *shape.Vertexes)), default=0.0)
 
 
 def _bodies(shape: Part.Shape) -> int:

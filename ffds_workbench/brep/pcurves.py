@@ -88,7 +88,9 @@ class PcurveReader:
             self._read[index] = read_curve(self._brep.curves_2d[index - 1], 2)
         curve = self._read[index]
         kind = self._brep.curves_2d[index - 1].split(maxsplit=1)[0]
-        return Pcurve(curve, first, last, index) if kind in "1267" else _allowed(curve, first, last)
+        if kind in "167":
+            return Pcurve(curve, first, last, index)
+        return _allowed(curve, first, last)
 
     def _projected(self, face: int, edge: int, surface: FaceSurface, place: Chain) -> Pcurve:
         tokens = self._brep.surfaces[surface.surface - 1].split()
@@ -110,7 +112,8 @@ class PcurveReader:
 
 def _allowed(curve: Curve, first: float, last: float) -> Pcurve:
     """The curve itself where a B-spline surface may carry it: a line, circle or clamped spline. Else a cubic."""
-    if isinstance(curve, Line) or (isinstance(curve, Conic) and curve.kind == "2"):
+    if isinstance(curve, Line) or (isinstance(curve, Conic) and curve.kind == "2" and
+                                   np.linalg.det([curve.axis_x, curve.axis_y]) > 0):
         return Pcurve(curve, first, last, print_curve(curve))
     if isinstance(curve, Spline) and not curve.periodic:
         return Pcurve(curve, first, last, print_curve(curve))

@@ -8,6 +8,7 @@ its record.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import Part
@@ -16,11 +17,12 @@ from ..errors import RefusedError
 from ..registration.splines import Array, SplineSurface
 from .curves import read_curve
 from .displacement import FaceDisplacement
-from .edges import Trace, edge_curve, largest_gap
+from .edges import PlacedCurve, Trace, edge_curve, largest_gap
 from .folding import folded
 from .instances import Instances, Locations, product, walk
+from .late_start import late
 from .lattice import approximate
-from .pcurves import PcurveReader, UsedEdge
+from .pcurves import Pcurve, PcurveReader, UsedEdge
 from .rewriting import NewEdge, NewFace, NewVertex, Rewriter
 from .text import BrepText, Curve3d, EdgeCurves, VertexPoint, dump, parse
 from .workpiece import Workpiece, WorkpieceFace
@@ -28,6 +30,8 @@ from .workpiece import Workpiece, WorkpieceFace
 SURFACE_TOLERANCE = 2e-6
 """Largest distance in mm of a new surface from the nominal one plus its displacement, where nothing else is asked."""
 
+_EXACT = 9e-8
+"""A gap below this (mm) is within OCCT's own precision."""
 _STILL = 1e-5
 """A displacement below this (mm) counts as none, where a moved face meets one that stays."""
 
@@ -61,9 +65,10 @@ def rebuild(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement],
     geometry = _Geometry(brep, locations, instances, faces, tolerance)
     geometry.refuse_tears(displacements, workpiece)
     edges = {index: geometry.edge(index) for index in geometry.edges}
-    vertices = geometry.vertices(edges)
+    edges, vertices = geometry.start_late(edges, geometry.vertices(edges))
+    rewriter = Rewriter(brep, locations, instances, geometry.faces(), edges, vertices)
     shape = Part.Shape()
-    shape.importBrepFromString(dump(Rewriter(brep, locations, instances, faces, edges, vertices).text()))
+    shape.importBrepFromString(dump(rewriter.text()))
     if workpiece.shape.isValid() and not shape.isValid():
         raise RefusedError("The rebuilt shape is not valid: the displacement is too large or too uneven for this part.")
     return shape
@@ -108,6 +113,8 @@ class _Geometry:
         for face, new in faces.items():
             for used in new.edges:
                 self._uses.setdefault(used.edge, []).append((face, used))
+        self._gaps: dict[int, tuple[PlacedCurve, float]] = {}
+        self._late: dict[tuple[int, int], Pcurve] = {}
         self.edges = sorted(self._uses)
         self._staying_vertices = {vertex for edge, ends in enumerate(instances.edge_ends)
                                   if edge not in self._uses or self._stays(edge) for vertex, _ in ends}
@@ -145,17 +152,62 @@ class _Geometry:
         item = next((item for item in old.representations if isinstance(item, Curve3d)), None)
         if self._stays(edge) and item is not None:
             place = product(self._instances.edges[edge].place, self._locations.chain(item.location))
-            matrix = self._locations.matrix(place)
-            curve = read_curve(self._brep.curves_3d[item.curve - 1], 3)
-            gap = largest_gap(curve, matrix, item.first, item.last, traces)
-            return NewEdge(None, _covering(old.tolerance, gap))
+            curve = PlacedCurve(read_curve(self._brep.curves_3d[item.curve - 1], 3), self._locations.matrix(place),
+                                item.first, item.last)
+            return NewEdge(None, max(old.tolerance, self._covering(edge, curve)))
         if not old.same_parameter:
             raise RefusedError(f"Edge{edge + 1} and its faces run at different parameters: repair the shape first.")
         span = item or self._uses[edge][0][1].pcurves[0]
         closed = len({vertex for vertex, _ in self._instances.edge_ends[edge]}) == 1
         new = edge_curve(traces, span.first, span.last, closed, self._tolerance)
-        gap = largest_gap(new, np.eye(4), span.first, span.last, traces)
-        return NewEdge(new, _covering(old.tolerance, gap))
+        curve = PlacedCurve(new, np.eye(4), span.first, span.last)
+        return NewEdge(new, max(old.tolerance, self._covering(edge, curve)))
+
+    def _covering(self, edge: int, curve: PlacedCurve) -> float:
+        gap = largest_gap(curve, self._traces(edge))
+        self._gaps[edge] = curve, gap
+        return _covering(gap)
+
+    def start_late(self, edges: Mapping[int, NewEdge], vertices: Mapping[int, NewVertex]
+                   ) -> tuple[dict[int, NewEdge], dict[int, NewVertex]]:
+        """The edges and vertices with tolerances for the pcurves that start late (see `late_start`), one per edge."""
+        edges, vertices = dict(edges), dict(vertices)
+        for edge, (curve, gap) in self._gaps.items():
+            start = next((vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"), -1)
+            later = self._later(edge, curve, gap, self._point(start, vertices)) if gap > _EXACT and start >= 0 else None
+            if later is None:
+                continue
+            reach = float(np.linalg.norm(later.at(np.zeros(1)) - self._point(start, vertices)))
+            least = _covering(largest_gap(curve, [later]))
+            edges[edge] = replace(edges[edge], tolerance=max(edges[edge].tolerance, least))
+            for vertex, _ in self._instances.edge_ends[edge]:
+                vertices[vertex] = replace(vertices[vertex], tolerance=max(vertices[vertex].tolerance, least,
+                                                                           _covering(reach)))
+        return edges, vertices
+
+    def _later(self, edge: int, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:
+        for face, used in self._uses[edge]:
+            trace = Trace(self._faces[face].surface, used.pcurves[0])
+            later = late(trace, curve, gap, vertex) if len(used.pcurves) == 1 and not trace.at_seam(0.0) else None
+            if later is not None:
+                self._late[face, edge] = later.pcurve
+                return later
+        return None
+
+    def _point(self, vertex: int, vertices: Mapping[int, NewVertex]) -> Array:
+        """Where a vertex is, in world coordinates."""
+        point = vertices[vertex].point
+        if point is not None:
+            return point
+        instance = self._instances.vertices[vertex]
+        matrix = self._locations.matrix(instance.place)
+        return matrix[:3, :3] @ np.array(self._brep.shapes[instance.shape].geometry.point) + matrix[:3, 3]
+
+    def faces(self) -> dict[int, NewFace]:
+        """The displaced faces, with the pcurves that start late."""
+        return {face: replace(new, edges=tuple(
+                    replace(used, pcurves=(self._late[face, used.edge],)) if (face, used.edge) in self._late else used
+                    for used in new.edges)) for face, new in self._faces.items()}
 
     def vertices(self, edges: Mapping[int, NewEdge]) -> dict[int, NewVertex]:
         """New points and tolerances of all vertices of displaced faces.
@@ -197,6 +249,6 @@ class _Geometry:
         return NewVertex(None if stays else point, tolerance)
 
 
-def _covering(tolerance: float, gap: float) -> float:
-    """An edge's tolerance: never lowered, and above the sampled gap by what lies between samples."""
-    return max(tolerance, gap + min(0.3 * gap, 3e-5) + 2e-8)
+def _covering(gap: float) -> float:
+    """A tolerance above a sampled gap by what lies between samples."""
+    return gap + min(0.3 * gap, 3e-5) + 2e-8

@@ -18,6 +18,7 @@ _ENTITY = re.compile(r"#(\d+)\s*=\s*([A-Z0-9_]*)\s*\(((?:'(?:[^']|'')*'|[^';])*)
 _STRING = re.compile(r"'((?:[^']|'')*)'")
 _REFERENCE = re.compile(r"#(\d+)")
 _PRODUCT = re.compile(r"(=\s*PRODUCT\s*\(\s*)'((?:[^']|'')*)'(\s*,\s*)'((?:[^']|'')*)'")
+_UNCERTAINTY = re.compile(r"(UNCERTAINTY_MEASURE_WITH_UNIT\(\s*LENGTH_MEASURE\()([^)]*)(\))")
 _UNNAMED = "Open CASCADE STEP translator"
 _SOLIDS = ("MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP")
 _KINDS = {"PLANE": "Plane", "CYLINDRICAL_SURFACE": "Cylinder", "CONICAL_SURFACE": "Cone",
@@ -173,6 +174,18 @@ def decorate(text: str, decoration: Decoration, kinds: Sequence[str]) -> str:
     text = _with_names(text, {number: name for number, name in names.items() if name})
     colours = decoration.colours * len(faces) if len(decoration.colours) == 1 else decoration.colours
     return _with_colours(text, entities, faces, colours) if len(colours) == len(faces) else text
+
+
+def with_uncertainty(text: str, least: float) -> str:
+    """The STEP text with an uncertainty of length of at least ``least`` in mm.
+
+    That is the largest gap between what the file says is connected (ISO 10303-43). OCCT writes the average tolerance,
+    and its reader makes new pcurves where they end farther from their vertex than that.
+    """
+    def raised(match: re.Match[str]) -> str:
+        return f"{match[1]}{max(float(match[2]), least):.3E}{match[3]}"
+
+    return _UNCERTAINTY.sub(raised, text)
 
 
 def _with_names(text: str, names: dict[int, str]) -> str:

@@ -33,7 +33,7 @@ def test_a_warp_of_the_whole(name, shared_data, tmp_path):
     result = rebuild(workpiece.read(nominal), shared_checks.everywhere(nominal, displacement))
     shared_checks.assert_same_topology(result, nominal)
     own = shared_checks.gap(nominal, SAMPLES)
-    assert shared_checks.gap(result, SAMPLES) < own + shared_checks.GAP
+    assert shared_checks.gap(result, SAMPLES) < min(2 * (own + shared_checks.GAP), own + 1e-4)
     # Where the nominal gapes beyond its tolerance, its gap is the line.
     assert shared_checks.tolerance(result) <= max(shared_checks.tolerance(nominal), 1e-3, own + 1e-4)
     result.exportStep(str(tmp_path / "result.step"))

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pcurves that start late: the STEP file of a rebuilt part passes the check for Boolean operations.
+
+OCCT's own check of the shape read back is the truth.
+"""
+from __future__ import annotations
+
+import numpy as np
+import Part
+import pytest
+from FreeCAD import Vector
+
+from ffds_workbench.benchmark import topology_shapes
+from ffds_workbench.brep import files, workpiece
+from ffds_workbench.brep.curves import Line, Spline
+from ffds_workbench.brep.edges import PlacedCurve, Trace
+from ffds_workbench.brep.field import local_displacements
+from ffds_workbench.brep.files import Model
+from ffds_workbench.brep.late_start import late
+from ffds_workbench.brep.pcurves import Pcurve
+from ffds_workbench.brep.rebuild import rebuild
+from ffds_workbench.registration.splines import SplineSurface, clamped_knots
+
+
+def _angle() -> Part.Shape:
+    """An angle with a rounded inside corner and a bore through either wall."""
+    angle = Part.makeBox(60, 40, 3).fuse(Part.makeBox(3, 40, 50)).removeSplitter()
+    corner = next(edge for edge in angle.Edges if edge.CenterOfMass.distanceToPoint(Vector(3, 20, 3)) < 1e-6)
+    angle = angle.makeFillet(4, [corner])
+    angle = angle.cut(Part.makeCylinder(6, 20, Vector(35, 20, -5)))
+    return angle.cut(Part.makeCylinder(5, 20, Vector(-5, 20, 28), Vector(1, 0, 0)))
+
+
+@pytest.mark.parametrize("mode", ["one face", "all"])
+def test_step_file_passes_the_boolean_check(mode, tmp_path):
+    part = workpiece.read(_angle())
+    if mode == "all":
+        result = rebuild(part, topology_shapes.warp(part), 1e-5)
+    else:
+        face = topology_shapes.busiest_and_middle(part)[0]
+        moved = local_displacements(part, {face: topology_shapes.bump(part.faces[face])})
+        result = rebuild(part, moved, 1e-5)
+    files.write(Model(result, "angle"), tmp_path / "angle.step")
+    back = Part.read(str(tmp_path / "angle.step"))
+    back.check(True)
+
+
+def test_the_start_has_the_largest_distance():
+    flat = SplineSurface(clamped_knots(0, 10, 4), clamped_knots(0, 10, 4),
+                         np.stack(np.meshgrid(*[[0, 10 / 3, 20 / 3, 10]] * 2, [0.0], indexing="ij"), axis=-1)[:, :, 0])
+    pcurve = Pcurve(Line(np.array([0.0, 5.0]), np.array([1.0, 0.0])), 0.0, 10.0, "")
+    # A cubic that leaves the line by up to 0.75 e-5 mm, most between the reader's parameters.
+    poles = np.array([[0, 5, 0], [10 / 3, 5, 1e-5], [20 / 3, 5, 1e-5], [10, 5, 0]])
+    curve = PlacedCurve(Spline(3, np.repeat([0.0, 10.0], 4), poles, False, False), np.eye(4), 0.0, 10.0)
+    later = late(Trace(flat, pcurve), curve, 0.75e-5, np.array([0.0, 5.0, 0.0]))
+    distance = np.linalg.norm(later.at(np.linspace(0, 1, 5001)) - curve.at(np.linspace(0, 1, 5001)), axis=1)
+    assert distance.argmax() == 0
+    assert distance[0] == pytest.approx(1.15 * 0.75e-5, rel=1e-3)
+    assert np.abs(later.at(np.linspace(0, 1, 101))[:, 1:] - [5.0, 0.0]).max() < 1e-12  # along itself
+
+
+def test_an_edge_that_gapes_starts_where_it_did():
+    flat = SplineSurface(clamped_knots(0, 10, 4), clamped_knots(0, 10, 4),
+                         np.stack(np.meshgrid(*[[0, 10 / 3, 20 / 3, 10]] * 2, [0.0], indexing="ij"), axis=-1)[:, :, 0])
+    line = Line(np.array([0.0, 5.0]), np.array([1.0, 0.0]))
+    own = PlacedCurve(Line(np.array([0.0, 5.0, 1e-3]), np.array([1.0, 0.0, 0.0])), np.eye(4), 0.0, 10.0)
+    assert late(Trace(flat, Pcurve(line, 0.0, 10.0, "")), own, 1e-3, np.array([0.0, 5.0, 1e-3])) is None
