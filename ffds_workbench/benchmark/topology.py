@@ -18,7 +18,7 @@ import Part
 
 from .. import ROOT
 from ..api.registering import SURFACE_TOLERANCE as LOCAL_TOLERANCE
-from ..brep import topology, workpiece
+from ..brep import files, topology, workpiece
 from ..brep.displacement import FaceDisplacement
 from ..brep.field import local_displacements
 from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
@@ -52,6 +52,7 @@ class Row:
     boolean_check : errors of the check for Boolean operations, before and after; None where it did not finish
     solids_check : the same, each solid by itself; only where the check of the whole has become worse
     step : whether the STEP file reads back with the same counts and valid
+    step_check : errors of the check for Boolean operations on what it reads back as
     deviation : largest distance from the nominal in mm (identity only)
     volume : relative change of volume
     poles : control points of the faces that moved
@@ -71,6 +72,7 @@ class Row:
     boolean_check: tuple[int | None, int | None]
     solids_check: tuple[int | None, int | None] | None
     step: bool
+    step_check: int | None
     deviation: float | None
     volume: float
     poles: int
@@ -136,7 +138,9 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
     moved = displacements()
     result = rebuild(part, moved, LOCAL_TOLERANCE if mode.startswith("bump") else SURFACE_TOLERANCE)
     seconds = time.perf_counter() - start
-    certificate = Certificate(nominal, condition(result, boolean_checks((result,), BOOLEAN_LIMIT)[0]))
+    back = _read_back(result)
+    errors = boolean_checks((result,) if back is None else (result, back), BOOLEAN_LIMIT)
+    certificate = Certificate(nominal, condition(result, errors[0]))
     checks = nominal.boolean_check, certificate.after.boolean_check
     worse = checks[0] is not None and checks[1] is not None and checks[1] > checks[0]
     alone = (_alone(part.shape), _alone(result)) if worse and len(part.shape.Solids) > 1 else None
@@ -145,9 +149,8 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
     problems = certificate.problems()
     if alone is not None and None not in alone and alone[1] <= alone[0]:
         problems[-1] += " Each solid by itself is as sound as before: the solids touch, and now run into each other."
-    step = _reads_back(result)
-    if not step:
-        problems.append("The STEP file does not read back." if _reads_back(part.shape) else
+    if back is None:
+        problems.append("The STEP file does not read back." if _read_back(part.shape) is not None else
                         "The STEP file does not read back, nor does the nominal's.")
     if deviation is not None and deviation > _DEVIATION_LIMIT:
         problems.append(f"The identity is {deviation:.2g} mm off.")
@@ -155,8 +158,9 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
         problems.append(f"The identity changes the volume by {volume:.1g}.")
     return Row(name, mode, len(moved), len(part.faces), not certificate.broken(), nominal.max_edge_gap,
                certificate.excess_gap, (nominal.max_tolerance, certificate.after.max_tolerance),
-               certificate.tolerance_line, checks, alone, step,
-               deviation, volume, sum(_poles(result.Faces[face]) for face in moved), seconds, tuple(problems))
+               certificate.tolerance_line, checks, alone, back is not None,
+               None if back is None else errors[1], deviation, volume,
+               sum(_poles(result.Faces[face]) for face in moved), seconds, tuple(problems))
 
 
 def _alone(shape: Part.Shape) -> int | None:
@@ -182,14 +186,16 @@ def _deviation(part: Workpiece, result: Part.Shape) -> float:
     return largest
 
 
-def _reads_back(shape: Part.Shape) -> bool:
-    """Whether a STEP file of the shape has the same sub-shapes and is valid."""
+def _read_back(shape: Part.Shape) -> Part.Shape | None:
+    """What the shape's STEP file reads back as, if that has the same sub-shapes and is valid."""
     with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "shape.step")
-        shape.exportStep(path)
-        back = Part.Shape()
-        back.read(path)
-    return bool(back.isValid()) and topology.read(back).counts == topology.read(shape).counts
+        path = Path(folder) / "shape.step"
+        try:
+            files.write(files.Model(shape, "shape"), path)
+        except FfdsError:
+            return None
+        back = Part.read(str(path))
+    return back if topology.read(back).counts == topology.read(shape).counts else None
 
 
 def _tables(rows: list[Row | Refused]) -> list[Table]:
@@ -197,7 +203,8 @@ def _tables(rows: list[Row | Refused]) -> list[Table]:
     tables = [Table("Shapes without a flaw", ("mode", "shapes", "kept", "edge gaps", "tolerance", "Boolean check",
                                                "STEP", "no problem"), _summary(rows)),
               Table("Every shape", ("shape", "mode", "moved", "kept", "excess gap", "tolerance", "Boolean check",
-                                    "STEP", "deviation", "volume", "poles", "s"), [_cells(row) for row in measured])]
+                                    "STEP", "its check", "deviation", "volume", "poles", "s"),
+                    [_cells(row) for row in measured])]
     exceptions = [(row.shape, row.mode, row.reason if isinstance(row, Refused) else " ".join(row.problems))
                   for row in rows if isinstance(row, Refused) or row.problems]
     return [*tables, Table("Exceptions", ("shape", "mode", "what"), exceptions)] if exceptions else tables
@@ -221,5 +228,6 @@ def _cells(row: Row) -> tuple[str, ...]:
     before, after = ("–" if count is None else str(count) for count in row.boolean_check)
     return (row.shape, row.mode, f"{row.moved} of {row.faces}", "yes" if row.kept else "NO", f"{row.excess_gap:.1e}",
             f"{row.tolerance[0]:.1e} → {row.tolerance[1]:.1e}", f"{before} → {after}", "yes" if row.step else "NO",
+            "–" if row.step_check is None else str(row.step_check),
             "" if row.deviation is None else f"{row.deviation:.1e}", f"{row.volume:.1e}", str(row.poles),
             f"{row.seconds:.2f}")
