@@ -46,13 +46,14 @@ class Stage:
 
 _THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
              Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
-_QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 6, 0.1), Stage(250, 0.07, 0.03, 6, 0.03, 2, 0.05))
+_QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 8, 0.1), Stage(400, 0.07, 0.02, 6, 0.015, 2, 0.05))
 _LOCAL = (Stage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), Stage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
 _AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
 """How far, in rad and as a share of the part's size, the surroundings of the best pose are searched once more."""
-_QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL, _QUICK_POLISH = 12, 0.5, 900, 20_000, 5_000
-_CLEARLY_RIGHT = 0.75
-"""Score from which a quick answer is taken."""
+_QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL = 12, 0.5, 1000, 20_000
+_CLEARLY_RIGHT, _TURNED = 0.90, 0.15
+"""Share of explained points from which a quick answer is taken, and of the normals that may be turned round for it: of
+a sheet matched with its far side up to 0.95 is explained, but more of one matched with the right one."""
 _ROTATIONS = 500
 _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
 """Turns from the present pose that a fine alignment looks at, and the largest in rad."""
@@ -61,7 +62,8 @@ _DEFORMED = 0.004
 _FEWEST = 50
 _MAJOR = 0.1
 """Share of the points from which a piece of surface has a sign of its own in the search."""
-_POLISH_POINTS = 9_000
+_POLISH_POINTS, _COUNTED = 5_000, 8_000
+"""Points for the pose of a deformed part, and for the fitness."""
 _FAILS = 0.775
 """Mean of score and explained share below which a pose is no answer: scans of other parts stay below 0.76, those of the
 part itself reach 0.81 under large noise and 0.87 deformed by 5 % of its size or cropped by a quarter."""
@@ -134,9 +136,9 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
         best = _nearest(verified, sketch.points.mean(axis=0))
     else:
         verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
-        around = _around(target, sketch, _best(verified, mode).pose)
+        around = _around(target, sketch, _best(target, sketch, verified, mode).pose)
         verified += _search(target, sketch, table, around, _LOCAL, generator)
-        best = _best(verified, mode)
+        best = _best(target, sketch, verified, mode)
     pose = _polish(target, sketch, best)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
     after = examine(target, sketch, pose, _turn(best, pose), table)
@@ -145,20 +147,35 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
 
 
 def _quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
-    """The pose of a clean, nearly whole scan that lies within some 30° of the part; None if it is not clearly right."""
+    """The pose of a clean scan of an undeformed part that lies within some 30° of it; None if none is clearly right."""
     sketch = sketch_of(scan, generator, _QUICK_POINTS, _QUICK_POOL)
-    if len(sketch.points) < _FEWEST:
+    if len(sketch.points) < _FEWEST or is_rough(target, sketch):
         return None
     centre = sketch.points.mean(axis=0)
     rotations = _turns_up_to(_QUICK_TURN, _QUICK_ROTATIONS)
-    starts = motion(rotations, target.centre - rotations @ centre)
-    verified = _search(target, sketch, None, starts, _QUICK, generator)
-    best = _best(verified, "fine")
-    if best.evidence.score < _CLEARLY_RIGHT:
+    candidates = _propose(target, sketch, motion(rotations, target.centre - rotations @ centre), _QUICK, generator)
+    clear: list[Verified] = []
+    for pose, signs in zip(candidates.poses, candidates.signs, strict=True):
+        pose, normals = _refined(target, sketch, pose, signs)
+        normals, turned = _mended(target, sketch, pose, normals)
+        evidence = examine(target.light, sketch, pose, normals, None, rounds=0)
+        if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > _FAILS and turned < _TURNED:
+            clear.append(Verified(pose, evidence, normals))
+    if not clear:
         return None
-    pose = _polish(target, sketch, best, _QUICK_POLISH)
-    best = Verified(pose, best.evidence, _turn(best, pose))
-    return _answer(target, sketch, None, best, verified, scale)
+    best = _best(target, sketch, clear, "fine")
+    pose = _polish(target, sketch, best)
+    return _answer(target, sketch, None, Verified(pose, best.evidence, _turn(best, pose)), clear, scale)
+
+
+def _mended(target: Target, sketch: Sketch, pose: Array, normals: Array) -> tuple[Array, float]:
+    """Normals turned round one by one where the point then lies on the part, and the share of those."""
+    moved, height = apply(pose, sketch.points), []
+    for side in (normals, -normals):
+        distance, nearest = target.light.nearest(moved, side, 0.05 * target.size)
+        height.append(np.where(np.isfinite(distance), np.abs(target.light.heights(moved, nearest)[0]), np.inf))
+    turned = height[1] + 4.0 * sketch.noise < height[0]
+    return np.where(turned[:, None], -normals, normals), float(turned.mean())
 
 
 def _turn(found: Verified, pose: Array) -> Array:
@@ -166,14 +183,16 @@ def _turn(found: Verified, pose: Array) -> Array:
     return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
 
 
-def _best(verified: Sequence[Verified], mode: str) -> Verified:
-    """The pose that scores best; a fine alignment takes the one that turns least among those that fit alike."""
-    best = max(verified, key=lambda v: v.evidence.score)
-    if mode == "global":
-        return best
+def _best(target: Target, sketch: Sketch, verified: Sequence[Verified], mode: str) -> Verified:
+    """The pose that scores best, and of those that fit alike the one that needs the least deformation; a fine alignment
+    first takes those that turn least."""
     alike = _alike(verified)
-    nearest = min(float(angle(v.pose, np.eye(4))) for v in alike)
-    return max((v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN), key=lambda v: v.evidence.score)
+    if mode != "global":
+        nearest = min(float(angle(v.pose, np.eye(4))) for v in alike)
+        alike = [v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN]
+    if len(alike) == 1:
+        return alike[0]
+    return min(alike, key=lambda v: examine(target.light, sketch, v.pose, v.normals, None, rounds=0).misfit)
 
 
 def _alike(verified: Sequence[Verified]) -> list[Verified]:
@@ -226,6 +245,14 @@ def _centres(points: Array, size: float, most: int = 5) -> Array:
 def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, stages: Sequence[Stage],
             generator: np.random.Generator) -> list[Verified]:
     """The most promising poses, refined and verified."""
+    candidates = _propose(target, sketch, starts, stages, generator)
+    return [_verify(target, sketch, table, pose, signs)
+            for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
+
+
+def _propose(target: Target, sketch: Sketch, starts: Array, stages: Sequence[Stage],
+             generator: np.random.Generator) -> Candidates:
+    """The most promising poses, best first."""
     share = np.bincount(sketch.piece) / len(sketch.piece)
     sided = not is_rough(target, sketch)
     pieces = max(1, int((share[:2] > _MAJOR).sum())) if sided else 1
@@ -245,8 +272,7 @@ def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, 
         else:
             kept = np.argsort(-score)[: stage.kept]
         candidates = candidates[kept]
-    return [_verify(target, sketch, table, pose, signs)
-            for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
+    return candidates
 
 
 def _turns_up_to(largest: float, count: int) -> Array:
@@ -259,35 +285,42 @@ def _turns_up_to(largest: float, count: int) -> Array:
 
 def _verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
     """The pose refined against the side of the part that the scan shows, and what speaks for it."""
+    pose, normals = _refined(target, sketch, pose, signs)
+    return Verified(pose, examine(target.light, sketch, pose, normals, table), normals)
+
+
+def _refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:
+    """The pose after a few steps, and the outward normals of the sketch in the model's frame."""
     light, gate = target.light, 0.08 * target.size
     if is_rough(target, sketch):
         pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
-        turned = facing_normals(light, apply(pose, sketch.points))
-        return Verified(pose, examine(light, sketch, pose, turned, table), turned)
+        return pose, facing_normals(light, apply(pose, sketch.points))
     piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
     normals = signs[piece][:, None] * sketch.normals
     pose = refine(light, sketch.points, pose, (gate,), 12, normals)
-    turned = normals @ pose[:3, :3].T
-    return Verified(pose, examine(light, sketch, pose, turned, table), turned)
+    return pose, normals @ pose[:3, :3].T
 
 
-def _polish(target: Target, sketch: Sketch, found: Verified, count: int = _POLISH_POINTS) -> Array:
-    """The pose on thousands of points, each against the side of the part that it shows.
+def _polish(target: Target, sketch: Sketch, found: Verified) -> Array:
+    """The pose on thousands of points.
 
-    Where the noise is large the side is a guess, and gross errors reach far: no normals then, and a closer gate. Else
-    the gate is wide: of a deformed part the pose is wanted that fits all of it best, not where it deformed least.
+    A part that is not deformed lies on its faces, each point on the nearest. Of a deformed one the pose is wanted that
+    fits all of it best, not where it deformed least: wide gates, and each point against the side that it shows. Where
+    the noise is large the side is a guess, and gross errors reach far: no normals then, and a closer gate.
     """
-    points = sketch.pool[thin(sketch.pool, count)]
     if is_rough(target, sketch):
         gate = max(0.02 * target.size, 3.0 * sketch.noise)
-        return refine(target, points, found.pose, (2.0 * gate, gate), 15)
+        return refine(target, sketch.pool[thin(sketch.pool, _POLISH_POINTS)], found.pose, (2.0 * gate, gate), 15)
+    reach = 0.12 * target.size
+    moved = apply(found.pose, sketch.points)
+    distance, nearest = target.nearest(moved, found.normals, reach)
+    height = target.heights(moved, nearest)[0][np.isfinite(distance)]
+    if len(height) and np.quantile(np.abs(height), 0.8) < max(_DEFORMED * target.size, 3.0 * sketch.noise):
+        return refine(target, sketch.pool, found.pose, (0.02 * target.size,), 6)
+    points = sketch.pool[thin(sketch.pool, _POLISH_POINTS)]
     normals = (found.normals @ found.pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
-    pose = refine(target, points, found.pose, (0.12 * target.size,), 8, normals)
-    moved = apply(pose, points)
-    height = target.heights(moved, target.nearest(moved, normals @ pose[:3, :3].T, 0.12 * target.size)[1])[0]
-    if np.quantile(np.abs(height), 0.8) > max(_DEFORMED * target.size, 3.0 * sketch.noise):
-        pose = settle(target, points, pose, normals, 0.12 * target.size)
-    return pose
+    pose = refine(target, points, found.pose, (reach,), 8, normals)
+    return settle(target, points, pose, normals, reach)
 
 
 def _answer(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
@@ -298,12 +331,11 @@ def _answer(target: Target, sketch: Sketch, table: Plane | None, best: Verified,
     rivals = _rivals(target, sketch, table, best, verified, symmetry)
     poses = (CandidatePose(best.pose, evidence.score, "found"),
              *(CandidatePose(rival.pose, rival.evidence.score, rival.reason) for rival in rivals))
-    moved = apply(best.pose, sketch.pool)
-    distance = target.tree.query(moved)[0]
+    moved = apply(best.pose, sketch.pool[:_COUNTED])
+    distance, closest = target.tree.query(moved)
     reach = max(_REACH * target.size, 2.5 * sketch.noise)
     near = distance < reach
-    closest = target.tree.query(moved[near])[1]
-    height = target.heights(moved[near], closest)[0] if near.any() else np.zeros(1)
+    height = target.heights(moved[near], closest[near])[0] if near.any() else np.zeros(1)
     reason, verdict = "", OK
     if evidence.certainty < _FAILS or evidence.coverage < _LEAST_COVERAGE:
         verdict, poses = FAILED, poses[:1]

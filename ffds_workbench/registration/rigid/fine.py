@@ -16,6 +16,8 @@ _MOST, _SETTLE = 0.85, 4.0
 full, as the best fit of a deformed part wants it; what lies apart does not."""
 _STILL = 1e-5
 """A step below this share of the part's size ends a stage."""
+_KEPT = 0.25
+"""Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""
 
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:
@@ -46,34 +48,38 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
     (4, 4), T_model_scan
     """
     for gate in gates:
+        travelled = np.inf
         for _ in range(iterations):
             moved = apply(pose, points)
-            turned = None if normals is None else normals @ pose[:3, :3].T
-            distance, nearest = target.nearest(moved, turned, gate)
-            near = np.isfinite(distance)
-            if near.sum() < 12:
-                return pose
-            moved, nearest = moved[near], nearest[near]
-            limit = np.clip(_SETTLE * float(np.quantile(np.abs(target.heights(moved, nearest)[0]), _MOST)),
-                            1e-3 * gate, gate)
-            update = fit_step(target, moved, nearest, limit, gate)
+            if travelled > _KEPT * target.spacing:
+                turned = None if normals is None else normals @ pose[:3, :3].T
+                distance, nearest = target.nearest(moved, turned, gate)
+                near = np.flatnonzero(np.isfinite(distance))
+                if len(near) < 12:
+                    return pose
+                nearest, travelled = nearest[near], 0.0
+            moved = moved[near]
+            update = fit_step(target, moved, nearest, gate)
             pose = step(update, target.centre) @ pose
-            if np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2 < _STILL * target.size:
+            moves = float(np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2)
+            travelled += moves
+            if moves < _STILL * target.size:
                 break
     return pose
 
 
-def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], cutoff: float, gate: float) -> Array:
+def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], gate: float) -> Array:
     """Twist (6,) by which matched points come to lie on the faces and inside their rims.
 
     Parameters
     ----------
     points : (n, 3) in model coordinates
     nearest : (n,) samples they are matched with
-    cutoff, gate : of the weights of heights, and of what sticks out beyond a rim, in mm
+    gate : in mm, the largest cut-off of the weights
     """
     height, normal = target.heights(points, nearest)
-    beyond, outwards = target.rims.overshoot(points, target.samples.face[nearest], gate)
+    cutoff = float(np.clip(_SETTLE * np.quantile(np.abs(height), _MOST), 1e-3 * gate, gate))
+    beyond, outwards = target.overshoot(points, nearest, gate)
     out = np.flatnonzero(beyond > 0)
     weight = np.concatenate([tukey(height, cutoff), tukey(beyond[out], gate)])
     return gauss_newton(np.concatenate([points, points[out]]) - target.centre,

@@ -74,7 +74,7 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     """
     pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
     tree = cKDTree(pool)
-    gaps = tree.query(pool[:2000], k=min(9, len(pool)))[0][:, -1]
+    gaps = tree.query(pool[:1000], k=min(9, len(pool)))[0][:, -1]
     chosen = thin(pool, count)
     near = tree.query(pool[chosen], k=min(9, len(pool)))[0][:, -1]
     chosen = chosen[near < 6.0 * max(float(np.median(gaps)), 1e-9)]

@@ -108,10 +108,11 @@ class Target:
         index : (n,) of the sample, 0 where nothing is within reach
         """
         if normals is None:
-            distance, index = self.tree.query(points, distance_upper_bound=reach)
+            distance, index = self.tree.query(points, distance_upper_bound=reach, workers=_workers(points))
             return distance, np.where(np.isfinite(distance), index, 0)
         place = np.hstack([points, self._turn_length * normals])
-        index = self._sided_tree.query(place, distance_upper_bound=np.hypot(reach, self._turn_length))[1]
+        index = self._sided_tree.query(place, distance_upper_bound=np.hypot(reach, self._turn_length),
+                                        workers=_workers(points))[1]
         index = np.where(index < len(self.samples.area), index, 0)
         distance = np.linalg.norm(points - self.samples.points[index], axis=1)
         facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING
@@ -168,6 +169,33 @@ class Target:
         flat = np.einsum("ni,ni->n", s.normals[nearest], offset)
         height = (flat - 0.5 * np.einsum("ni,ni->n", slope, along)) / length
         return height, normal / length[:, None]
+
+
+    @cached_property
+    def _beside_rim(self) -> NDArray[np.bool_]:
+        """Which samples are the nearest ones to something that sticks out beyond a rim."""
+        if not len(self.rims.points):
+            return np.zeros(len(self.samples.area), dtype=bool)
+        return np.isfinite(self.rims.tree.query(self.samples.points, distance_upper_bound=3.0 * self.spacing)[0])
+
+    def overshoot(self, points: Array, nearest: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
+        """How far points stick out beyond the rim of the face they are matched with; see ``Rims.overshoot``.
+
+        Parameters
+        ----------
+        points : (n, 3) in mm
+        nearest : (n,) indices of samples
+        gate : in mm
+        """
+        beyond, outwards = np.zeros(len(points)), np.zeros((len(points), 3))
+        some = np.flatnonzero(self._beside_rim[nearest])
+        beyond[some], outwards[some] = self.rims.overshoot(points[some], self.samples.face[nearest[some]], gate)
+        return beyond, outwards
+
+
+def _workers(points: Array) -> int:
+    """Threads that a search for so many points is worth."""
+    return -1 if len(points) > 4000 else 1
 
 
 def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:

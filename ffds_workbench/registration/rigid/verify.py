@@ -63,7 +63,8 @@ def facing_normals(target: Target, points: Array) -> Array:
     return target.samples.normals[target.tree.query(points)[1]]
 
 
-def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None) -> Evidence:
+def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
+            rounds: int = ROUNDS) -> Evidence:
     """Weigh a pose.
 
     Parameters
@@ -72,11 +73,12 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     pose : (4, 4), T_model_scan
     normals : (n, 3) outward normals of the sketch in model coordinates
     table : the plane beside the part, scan coordinates
+    rounds : of the smooth deformation that is allowed for, see ``match``
     """
     size = target.size
     moved = apply(pose, sketch.points)
     # under large noise a smooth deformation could not be told from a wrong pose
-    found = match(target, moved, normals, 2.0 * _NEAR * size, 0 if is_rough(target, sketch) else ROUNDS)
+    found = match(target, moved, normals, 2.0 * _NEAR * size, 0 if is_rough(target, sketch) else rounds)
     beside = _beside(target, found.points, found.nearest, found.height, found.normal)
     agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
     cap = max(0.008 * size, 4.0 * sketch.noise)
@@ -95,7 +97,7 @@ def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Ar
     """Distance in mm along the surface from where the face ends to points that lie beyond; (n,)."""
     along = points - target.samples.points[nearest] - height[:, None] * normal
     gap = np.maximum(np.linalg.norm(along, axis=1) - 1.5 * target.spacing, 0.0)
-    beyond = target.rims.overshoot(points, target.samples.face[nearest], _NEAR * target.size)[0]
+    beyond = target.overshoot(points, nearest, _NEAR * target.size)[0]
     return np.maximum(gap, beyond)
 
 
