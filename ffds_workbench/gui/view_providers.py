@@ -19,7 +19,7 @@ def attach(item: Any, source: Any) -> None:
         return
     theirs, ours = source.ViewObject, item.ViewObject
     for name in ("ShapeColor", "LineColor", "PointColor", "LineWidth", "Transparency", "DisplayMode", "DiffuseColor"):
-        if name in getattr(theirs, "PropertiesList", ()) and getattr(theirs, name) != getattr(ours, name):
+        if hasattr(theirs, name) and getattr(theirs, name) != getattr(ours, name):
             setattr(ours, name, getattr(theirs, name))
 
 

@@ -205,11 +205,12 @@ def test_a_recorded_session_replays_without_a_gui(hands, tmp_path):
         if "ffds_workbench" in text or "newDocument" in text:
             lines.append(text)
     macro = tmp_path / "session.py"
-    macro.write_text("\n".join(["import FreeCAD", *lines, "print(repr(FreeCAD.ActiveDocument.AsBuilt.Shape.Volume))"]))
+    macro.write_text("\n".join(["import FreeCAD", *lines, "print('volume:', repr(FreeCAD.ActiveDocument.AsBuilt.Shape.Volume))"]))
     code = f"exec(open({str(macro)!r}).read())"
     done = subprocess.run(["freecadcmd", "-c", code], capture_output=True, text=True, timeout=120)
     assert done.stdout.strip(), (macro.read_text(), done.stderr, done.returncode)
-    assert float(done.stdout.strip().splitlines()[-1]) == pytest.approx(volume, rel=1e-9), done.stderr
+    replayed = float(done.stdout.rpartition("volume:")[2].split()[0])
+    assert replayed == pytest.approx(volume, rel=1e-9), done.stderr
 
 
 def test_a_scan_is_simulated_and_the_part_exported(hands, plate_document, tmp_path, monkeypatch):
