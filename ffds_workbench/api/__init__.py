@@ -26,6 +26,7 @@ import FreeCAD  # noqa: E402, F401 (Part needs FreeCAD to be loaded first)
 from ..brep.files import Model  # noqa: E402
 from ..brep.simulation import Simulation  # noqa: E402
 from ..errors import FfdsError, InputError, RefusedError  # noqa: E402
+from ..registration.joint import SensorProfile  # noqa: E402
 from ..scan.cloud import PointCloud  # noqa: E402
 from ..scan.sensor import SensorSettings, View  # noqa: E402
 from ..seams.carry import carry  # noqa: E402
@@ -38,10 +39,11 @@ from .deviating import Deviation, deviation  # noqa: E402
 from .inputs import read_model, read_scan  # noqa: E402
 from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation  # noqa: E402
 from .registering import Result, register  # noqa: E402
+from .sensors import measure_sensor, write_sensor  # noqa: E402
 from .simulating import simulate  # noqa: E402
 
 __all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result",
-           "RobotSettings", "SeamLimits", "SeamSettings", "SensorSettings", "Simulation", "View", "align_scan",
-           "carry", "check_model_output", "check_outputs", "check_seam_outputs", "deviation", "plan_seams",
-           "read_frame_choice", "read_model", "read_scan", "register", "simulate", "write", "write_alignment",
-           "write_deviation", "write_seams", "write_simulation"]
+           "RobotSettings", "SeamLimits", "SeamSettings", "SensorProfile", "SensorSettings", "Simulation", "View",
+           "align_scan", "carry", "check_model_output", "check_outputs", "check_seam_outputs", "deviation",
+           "measure_sensor", "plan_seams", "read_frame_choice", "read_model", "read_scan", "register", "simulate",
+           "write", "write_alignment", "write_deviation", "write_seams", "write_sensor", "write_simulation"]

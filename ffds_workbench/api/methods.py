@@ -13,7 +13,7 @@ from ..brep.workpiece import Workpiece
 from ..errors import RefusedError
 from ..registration.ffd import register_ffd
 from ..registration.ffds import register_ffds
-from ..registration.joint import JointFace, JointRegistration, register_joint
+from ..registration.joint import JointFace, JointRegistration, SensorProfile, register_joint
 from ..registration.observed import observed_faces
 from ..registration.result import FaceRegistration
 from ..registration.robust import register_robust
@@ -43,10 +43,11 @@ class Deformation:
 
 
 def all_together(part: Workpiece, cloud: PointCloud, freeze: Collection[str], isometry: str, watch: Stopwatch,
-                 tuning: Tuning) -> Deformation:
+                 tuning: Tuning, sensor: SensorProfile) -> Deformation:
     """Register the whole part in one solve; faces that the scan does not observe are carried along."""
     with watch.stage("register", "Registering all faces together"):
-        found = register_joint(joint_part(part, freeze), cloud.points, replace(tuning.joint(), isometry=isometry),
+        found = register_joint(joint_part(part, freeze), cloud.points,
+                               replace(tuning.joint(), isometry=isometry, sensor=sensor),
                                lambda stage, share: watch.tell(f"Registering all faces together: {stage}"))
     with watch.stage("rebuild", "Closing the edges"):
         moving = {index: face.displacement for index, face in enumerate(found.faces) if face.name not in freeze}

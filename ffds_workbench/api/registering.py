@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,13 +16,14 @@ from ..brep.files import Model
 from ..brep.rebuild import rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import InputError
-from ..registration.joint import JointFace, JointRegistration
+from ..registration.joint import JointFace, JointRegistration, SensorProfile
 from ..registration.result import FaceRegistration
 from ..report import record, table
 from ..report.certificate import Certificate, boolean_checks, certify
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
+from ..scan import sensor_profile
 from ..scan.cloud import PointCloud
 from ..scan.plausibility import check_overlap
 from .inputs import as_cloud, as_model, box
@@ -77,7 +79,8 @@ class Result:
 def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, faces: Sequence[str] | None = None,
              method: str = "robust", lattice: Lattice = "auto", freeze: Collection[str] = (),
              source_points: int = 400, isometry: str = "auto", progress: Progress | None = None,
-             stiffness: float = 1.0, gate: float | None = None) -> Result:
+             stiffness: float = 1.0, gate: float | None = None,
+             sensor: SensorProfile | str | Path | None = None) -> Result:
     """Deform faces of a model to a scan; neighbouring faces adapt and the topology stays.
 
     Parameters
@@ -95,23 +98,26 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
     stiffness : of "robust": above 1 the displacement is smoother, below 1 it follows the scan more closely
     gate : of "robust": scan points farther than this from the as-built surface are outliers, in mm; None for the
         default
+    sensor : of the whole part: the sensor's profile, one of the presets by its name, or the file of one; it tells noise
+        that neighbouring points share from shape, so that bands are honest. None: white noise
 
     Raises
     ------
-    InputError : the model, a name, the method or the lattice cannot be used
+    InputError : the model, a name, the method, the lattice or the sensor cannot be used
     RefusedError : no overlap, too little data, or a result that would break the model
     """
     watch, tuning = Stopwatch(progress), Tuning(stiffness, gate)
+    profile = None if sensor is None else sensor_profile.find(sensor)
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)
         cloud = as_cloud(scan)
         part = workpiece.read(nominal.shape)
         frozen = [part.index(name) for name in dict.fromkeys(freeze)]
         wanted = None if faces is None else [part.index(name) for name in dict.fromkeys(faces)]
-        _check_request(method, lattice, wanted, frozen, isometry, tuning)
+        _check_request(method, lattice, wanted, frozen, isometry, tuning, profile)
         check_overlap(cloud, *box(nominal.shape))
     if method == "robust" and wanted is None:
-        found = all_together(part, cloud, freeze, isometry, watch, tuning)
+        found = all_together(part, cloud, freeze, isometry, watch, tuning, profile or SensorProfile())
     else:
         found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
@@ -125,7 +131,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
             before, after = compare(part, shape, list(found.faces), cloud.points)
         with watch.stage("certify", "Waiting for the check for Boolean operations"):
             certificate = _with_checks(certificate, *checks.result())
-    report = _report(part, cloud, found, before, after, certificate, watch)
+    report = _report(part, cloud, found, before, after, certificate, watch, profile)
     return Result(replace(nominal, shape=shape), nominal, cloud, tuple(found.faces.values()), before, after,
                   certificate, found.joint, report)
 
@@ -136,7 +142,7 @@ def _with_checks(certificate: Certificate, before: int | None, after: int | None
 
 
 def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],
-                   isometry: str, tuning: Tuning) -> None:
+                   isometry: str, tuning: Tuning, sensor: SensorProfile | None) -> None:
     if method not in METHODS:
         raise InputError(f"The method '{method}' is unknown: use one of {', '.join(METHODS)}.")
     if lattice != "auto" and (isinstance(lattice, str) or min(lattice) < 4):
@@ -156,10 +162,13 @@ def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None
         raise InputError("All faces together take their lattices from the data: name a face to choose its lattice.")
     if not together and isometry != "auto":
         raise InputError("Isometry couples all faces of a sheet: it needs method robust without named faces.")
+    if not together and sensor is not None:
+        raise InputError("A sensor profile is for the whole part: it needs method robust without named faces.")
 
 
 def _report(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
-            after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch) -> dict[str, Any]:
+            after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch,
+            sensor: SensorProfile | None) -> dict[str, Any]:
     names = [face.name for face in part.faces]
     moved = [names[index] for index in found.displacements]
     if found.joint is None:
@@ -173,6 +182,6 @@ def _report(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequ
         "faces": faces, "edges": edges,
         "deviation_before": record.all_figures(before), "deviation_after": record.all_figures(after),
         "topology": certificate.as_dict(),
-        "scan": record.scan_record(cloud, float(np.median([item.noise for item in found.faces.values()]))),
+        "scan": record.scan_record(cloud, float(np.median([item.noise for item in found.faces.values()])), sensor),
         "sheet": record.sheet_record(found.joint),
         "timing": watch.times()}

@@ -20,7 +20,7 @@ from .. import RESOURCES, __version__
 from ..benchmark import NAMES as BENCHMARKS
 from ..errors import FfdsError, InputError, RefusedError
 from ..scan.units import MILLIMETRES
-from . import align, seams, simulate, weld
+from . import align, seams, sensor, simulate, weld
 from .terminal import ProgressLine, quiet_libraries
 
 if TYPE_CHECKING:
@@ -94,6 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_deviation(commands)
     align.add(commands)
     simulate.add(commands)
+    sensor.add(commands)
     seams.add(commands)
     weld.add(commands)
     _add_demo(commands)
@@ -128,6 +129,9 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
                          help="whether a whole sheet part keeps its lengths (default: decided from the scan)")
     command.add_argument("--align", choices=["none", "fine", "global"], default="none",
                          help="bring the scan onto the model first (default: none)")
+    command.add_argument("--sensor", metavar="PROFILE.json",
+                         help="for bands that allow for noise that neighbouring points share: what 'ffds sensor "
+                              f"measure' wrote, or one of {', '.join(sensor.PRESETS)}")
     command.set_defaults(run=register)
 
 
@@ -178,7 +182,7 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
     scan = scan if aligned is None else aligned.scan
     result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
-                          options.source_points, options.isometry, progress)
+                          options.source_points, options.isometry, progress, sensor=options.sensor)
     if aligned is not None:
         result.report["alignment"] = aligned.report
     progress(f"Writing {options.out}")

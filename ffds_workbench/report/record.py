@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..registration.joint import EdgeRegistration, JointFace, JointRegistration
+from ..registration.joint import EdgeRegistration, JointFace, JointRegistration, SensorProfile
 from ..registration.result import FaceRegistration
 from ..scan.cloud import PointCloud
 from .deviation import FaceDeviation
@@ -18,9 +19,10 @@ from .statistics import statistics
 Record = dict[str, Any]
 
 
-def scan_record(scan: PointCloud, noise: float | None) -> Record:
-    """The report's ``scan`` block."""
-    return {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit}
+def scan_record(scan: PointCloud, noise: float | None, sensor: SensorProfile | None = None) -> Record:
+    """The report's ``scan`` block; ``sensor`` is the profile that the bands rest on, None for white noise."""
+    return {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit,
+            "sensor": None if sensor is None else asdict(sensor)}
 
 
 def figures(deviations: np.ndarray) -> Record | None:

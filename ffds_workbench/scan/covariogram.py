@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..errors import RefusedError
 from ..registration.splines import Array
 
-_PAIRS = 600_000
+_PAIRS = 300_000
 _BINS_PER_OCTAVE = 3
 _LONGEST_LAG = 0.25
 """Of the scan's size."""

@@ -25,6 +25,7 @@ _MAD, _TRIM = 1.4826, 4.5
 _MOST_LOST = 0.3
 _PER_CELL = 4.0
 _NEIGHBOURS = 40
+_SOME = 5000
 _ROUGH = 2.0
 _OTHER_SCANS = 0.5
 
@@ -122,7 +123,8 @@ def _surface_cells(points: Array, scans: int) -> tuple[_Cells, Index]:
     """Cells over any surface, on a grid seen along the axis that the normal is nearest to, so that noise does not cut
     them, and which points they hold: no outliers, and none where the surface is not smooth."""
     size = _cell_size(points, scans)
-    axis = np.abs(_normals(points, points)[0]).argmax(axis=1)
+    some = points[:: max(1, len(points) // _SOME)]
+    axis = np.abs(_normals(points, some)[0]).argmax(axis=1)[cKDTree(some).query(points, workers=-1)[1]]
     key = np.column_stack([np.floor(points / size), axis])
     key[np.arange(len(points)), axis] = 0
     cell = np.unique(key, axis=0, return_inverse=True)[1]
