@@ -20,9 +20,9 @@ Record = dict[str, Any]
 
 
 def scan_record(scan: PointCloud, noise: float | None, sensor: SensorProfile | None = None) -> Record:
-    """The report's ``scan`` block; ``sensor`` is the profile that the bands rest on, None for white noise."""
-    return {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit,
-            "sensor": None if sensor is None else asdict(sensor)}
+    """The report's ``scan`` block; ``sensor`` is the profile that the bands rest on, where it is not white noise."""
+    record = {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit}
+    return record if sensor is None else record | {"sensor": asdict(sensor)}
 
 
 def figures(deviations: np.ndarray) -> Record | None:
