@@ -11,6 +11,7 @@ from .boundary import Borders
 from .lattice import Index
 from .problem import Problem
 from .raster import Jet, normals
+from .settings import Trust
 from .values import CellValues
 
 
@@ -71,19 +72,20 @@ def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
     return NormalEquations(blocks, right)
 
 
-def shape_equations(problem: Problem, control_points: Array, bending: float, isometry: Array,
-                    thickness: float) -> NormalEquations:
-    """Bending, couplings and isometry (weight per span) at the current shape; ``thickness`` multiplies its rows."""
+def shape_equations(problem: Problem, control_points: Array, bending: float, trust: Trust) -> NormalEquations:
+    """All priors at the current shape with the trust they have; ``bending`` multiplies the weight of bending."""
     settings, stiffness = problem.settings, problem.stiffness
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    scalar = weight * problem.bending + problem.coupled + thickness * problem.thickness
-    blocks = scalar[:, None, None] * np.eye(3) + problem.dihedral
+    scalar = weight * problem.bending + problem.coupled + trust.shear * problem.shear
+    blocks = (scalar[:, None, None] * np.eye(3) + trust.dihedral * problem.dihedral
+              + (trust.thickness - trust.shear) * problem.thickness)
     right = (weight * gather(problem, stiffness.bending_load(normal - stiffness.normal))
-             + thickness * problem.couplings.thickness_load(control_points)
-             + problem.couplings.dihedral_load(control_points) - _apply(problem, scalar, control_points))
-    return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, isometry)
+             + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
+             + trust.dihedral * problem.couplings.dihedral_load(control_points)
+             - _apply(problem, weight * problem.bending + problem.coupled, control_points))
+    return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, problem.isometry_weights(trust))
 
 
 def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:
@@ -92,8 +94,7 @@ def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:
 
 
 def _isometry(problem: Problem, control_points: Array, normal: Array, isometry: Array) -> NormalEquations:
-    thickness = problem.couplings.pairs.of_face[problem.lattices.face_of_span]
-    strain, rows = problem.stiffness.strain(problem.lattices, control_points, normal, thickness)
+    strain, rows = problem.stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
     spans = len(rows)
     flat = rows.reshape(spans, -1, 48)
     weight = np.repeat(problem.stiffness.weight * isometry[:, None], 3, axis=1)[:, :, None]

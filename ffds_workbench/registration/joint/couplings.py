@@ -48,7 +48,8 @@ class Couplings:
     Attributes
     ----------
     scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
-    thickness : (controls, controls) normal matrix of the sheets' thickness
+    shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
+    thickness : (3 controls, 3 controls) that of its part along the normal
     pairs, edges : the places that are coupled
     thickness_rows : (pairs, controls) d_back − d_front
     thickness_weight : (pairs,) 1/mm²
@@ -58,6 +59,7 @@ class Couplings:
     """
 
     scalar: csr_matrix
+    shear: csr_matrix
     thickness: csr_matrix
     pairs: SheetPairs
     edges: EdgeSamples
@@ -67,24 +69,41 @@ class Couplings:
     dihedral_rows: csr_matrix
     dihedral_weight: Array
 
-    def thickness_load(self, control_points: Array) -> Array:
-        """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3)."""
+    def thickness_load(self, control_points: Array, thickness: float, shear: float) -> Array:
+        """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3).
+
+        ``thickness`` and ``shear`` weigh the parts along the nominal normal and in the skin.
+        """
+        across, along = self.thickness_misfit(control_points)
+        misfit = thickness * across[:, None] * self.pair_normal + shear * along
+        return -(self.thickness_rows.T @ (self.thickness_weight[:, None] * misfit))
+
+    def thickness_misfit(self, control_points: Array) -> tuple[Array, Array]:
+        """d_back − d_front + t (n − n₀): along the nominal normal (pairs,), and what is left in the skin (pairs, 3)."""
         if not len(self.pairs.thickness):
-            return np.zeros_like(control_points)
-        now, nominal = self._pair_normal(control_points), self._pair_normal(np.zeros_like(control_points))
-        target = -self.pairs.thickness[:, None] * (now - nominal)
-        return self.thickness_rows.T @ (self.thickness_weight[:, None] * target)
+            return np.zeros(0), np.zeros((0, 3))
+        turned = self._pair_normal(control_points) - self.pair_normal
+        misfit = self.thickness_rows @ control_points + self.pairs.thickness[:, None] * turned
+        across = np.einsum("nx,nx->n", misfit, self.pair_normal)
+        return across, misfit - across[:, None] * self.pair_normal
+
+    @property
+    def pair_normal(self) -> Array:
+        """Nominal normal of the sheets at the pairs, (pairs, 3)."""
+        return _sheet_normals(self.pairs, np.zeros((self.shear.shape[0], 3)))
 
     def _pair_normal(self, control_points: Array) -> Array:
-        """Normal of a sheet at the pairs, from both skins: (pairs, 3)."""
-        mean = self.pairs.front.normals(control_points) - self.pairs.back.normals(control_points)
-        return mean / np.linalg.norm(mean, axis=1, keepdims=True)
+        return _sheet_normals(self.pairs, control_points)
 
     def dihedral_load(self, control_points: Array) -> Array:
         """Gradient that brings every edge back to its nominal angle, (controls, 3)."""
-        change = _angle(self.edges, control_points) - _angle(self.edges, np.zeros_like(control_points))
-        change = np.mod(change + np.pi, 2 * np.pi) - np.pi
+        change = self.angle_change(control_points)
         return -(self.dihedral_rows.T @ (self.dihedral_weight * change)).reshape(-1, 3)
+
+    def angle_change(self, control_points: Array) -> Array:
+        """Change of the angles of the edges from the nominal ones, (samples,) in rad."""
+        change = _angle(self.edges, control_points) - _angle(self.edges, np.zeros_like(control_points))
+        return np.mod(change + np.pi, 2 * np.pi) - np.pi
 
     def measured_thickness(self, control_points: Array) -> Array:
         """Current thickness at the pairs in mm."""
@@ -110,8 +129,10 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
-    thickness = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
-    return Couplings(scalar.tocsr(), thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(),
+    shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
+    across = _along(thickness_rows, _sheet_normals(pairs, np.zeros((count, 3))))
+    thickness = (across.T @ diags(thickness_weight) @ across).tocsr()
+    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(),
                      dihedral_rows, dihedral_weight)
 
 
@@ -128,6 +149,20 @@ def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, inform
         weight[own] = prior / max(own.sum(), 1)
     weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN
     return weight
+
+
+def _sheet_normals(pairs: SheetPairs, control_points: Array) -> Array:
+    """Normal of a sheet at the pairs, from both skins: (pairs, 3)."""
+    mean = pairs.front.normals(control_points) - pairs.back.normals(control_points)
+    return mean / np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+
+
+def _along(rows: csr_matrix, direction: Array) -> csr_matrix:
+    """Rows (n, controls) that hold for x, y and z, taken along directions (n, 3): (n, 3 controls)."""
+    row = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
+    values = rows.data[:, None] * direction[row]
+    columns = 3 * rows.indices[:, None] + np.arange(3)
+    return csr_matrix((values.ravel(), columns.ravel(), 3 * rows.indptr), shape=(rows.shape[0], 3 * rows.shape[1]))
 
 
 def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..splines import Array, SplineSurface
-from .isometry import judge_stretch
 from .part import JointPart
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .sides import facing
 from .solve import iterate
 from .state import State, start
+from .trust import judge
 
 _SPAN = 30.0
 _POINTS = 6000
@@ -38,7 +38,7 @@ class LiveJoint:
         self._state = replace(state, facing=facing(self._problem, state.reach))
         for stage in stages(settings.schedule, state.reach):
             if not stage.all_points:
-                self._state = judge_stretch(self._problem, self._state, stage)
+                self._state = judge(self._problem, self._state, stage)
                 self._state = _steps(self._problem, stage, self._state, stage.iterations)
         self._isometry = settings.isometry
 
@@ -48,7 +48,7 @@ class LiveJoint:
         stage = replace([stage for stage in settings.schedule if not stage.all_points][-1],
                         gate=settings.schedule[-1].gate)
         if settings.isometry != self._isometry:
-            self._state = judge_stretch(problem, replace(self._state, strain=0.0), stage)
+            self._state = judge(problem, self._state, stage)
             self._isometry = settings.isometry
         self._state = _steps(problem, stage, self._state, 1)
         lattices = problem.lattices

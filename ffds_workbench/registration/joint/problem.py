@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from ...errors import RefusedError
@@ -16,7 +17,7 @@ from .couplings import Couplings, make_couplings
 from .lattice import Index, Lattices, build_lattices
 from .part import JointPart
 from .raster import Places, distance_to_trims, make_places, normals
-from .settings import JointSettings
+from .settings import JointSettings, Trust
 from .sheet import find_pairs
 from .statistics import ScanStatistics, scan_statistics
 from .stiffness import GAUSS_PLACES, Stiffness, make_stiffness
@@ -28,6 +29,8 @@ _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
+_WALL = 0.1
+"""Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,8 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    bending, coupled, thickness, dihedral : constant rows on the pattern, bending without its weight
+    bending, coupled, dihedral : constant rows on the pattern, bending without its weight
+    shear, thickness : those of the distance of opposite skins in all directions, and of its part along the normal
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -60,6 +64,7 @@ class Problem:
     pattern: Pattern
     bending: Array
     coupled: Array
+    shear: Array
     thickness: Array
     dihedral: Array
     sides: EdgeSides
@@ -75,6 +80,21 @@ class Problem:
     def face_of_cell(self) -> Index:
         """Face of every cell by its flat number."""
         return np.repeat(self.lattices.face_of_span, self.cells.inside.shape[1])
+
+    @property
+    def sheet_of_span(self) -> Array:
+        """Nominal thickness of the sheet whose skin a span belongs to, 0 elsewhere: (spans,) in mm."""
+        return self.couplings.pairs.of_face[self.lattices.face_of_span]
+
+    @property
+    def skin(self) -> NDArray[np.bool_]:
+        """Whether a span belongs to the skin of a sheet."""
+        return self.sheet_of_span > 0
+
+    def isometry_weights(self, trust: Trust) -> Array:
+        """Weight of the strain per mm² of every span: (spans,). Walls may stretch more than skins do."""
+        weight = self.settings.isometry_weight * trust.isometry
+        return np.where(self.skin, weight, min(_WALL * weight, self.settings.isometry_weight_walls))
 
 
 def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int]) -> Problem:
@@ -99,14 +119,15 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / statistics.noise**2)
-    coupled = couplings.scalar, couplings.thickness, _nodes_of(couplings.dihedral)
+    coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
                    pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
-                   pattern.from_scalar(couplings.thickness), pattern.from_vector(couplings.dihedral),
+                   pattern.from_scalar(couplings.shear), pattern.from_vector(couplings.thickness),
+                   pattern.from_vector(couplings.dihedral),
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
 

@@ -53,6 +53,17 @@ class Stage:
     all_points: bool = False
 
 
+@dataclass(frozen=True)
+class Trust:
+    """Factors on the weights of the priors: of isometry, of the thickness of sheets and their resistance to shear
+    through the thickness, and of the angles of edges. Bending always has its weight: it only keeps surfaces smooth."""
+
+    isometry: float = 1.0
+    thickness: float = 1.0
+    shear: float = 1.0
+    dihedral: float = 1.0
+
+
 SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
             Stage(1, 1.2, 5, 0.03, soft=True), Stage(1, 0.6, 4, 0.02, soft=True, all_points=True))
 
@@ -75,8 +86,8 @@ class JointSettings:
     turning : largest turn of the normal over a span, in rad
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
     curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; bending weighs 1/(κ₀ l)²
-    isometry_weight, isometry_weight_soft : weight of the strain per mm² for isometric and for stretched parts
-    thickness_sigma, thickness_sigma_soft : how well a sheet keeps its thickness, isometric or stretched, in mm
+    isometry_weight, isometry_weight_walls : weight of the strain per mm², on walls at most the second
+    thickness_sigma : how well a sheet keeps its thickness, in mm
     edge_sigma : how well faces agree along an edge, in mm
     dihedral_sigma : how well an edge keeps its angle, in rad
     pose_sigma : how far a solid may sit from its place, in mm
@@ -92,9 +103,8 @@ class JointSettings:
     curvature: float = 0.002
     curvature_length: float = 10.0
     isometry_weight: float = 3000.0
-    isometry_weight_soft: float = 30.0
+    isometry_weight_walls: float = 30.0
     thickness_sigma: float = 0.02
-    thickness_sigma_soft: float = 0.1
     edge_sigma: float = 1e-3
     dihedral_sigma: float = 0.01
     pose_sigma: float = 1.0

@@ -18,7 +18,6 @@ from .assembly import border_equations, data_equations, shape_equations
 from .boundary import find_borders, near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
-from .isometry import judge_stretch
 from .part import JointPart
 from .problem import Problem, make_problem
 from .refinement import finer_faces, transfer
@@ -28,6 +27,7 @@ from .sides import facing
 from .state import State, start
 from .summary import refuse_bad, summarise
 from .system import solve
+from .trust import judge
 from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
@@ -75,12 +75,12 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    state = replace(judge_stretch(problem, state, stage), nearest=None)
+    state = replace(state, nearest=None)
     if stage.soft:
         near = near_edges(problem.scan, problem.couplings.edges, problem.sides, state.control_points)
         state = replace(state, near=near, factor=None if stage.all_points else state.factor)
     for _ in range(stage.iterations):
-        state = iterate(problem, stage, state)
+        state = iterate(problem, stage, judge(problem, state, stage))
         if state.last_step < stage.enough:
             break
     return state
@@ -100,8 +100,7 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
     values = replace(values, weight=values.weight / problem.inflation)
     equations = (data_equations(problem, jet, values)
-                 + shape_equations(problem, state.control_points, stage.bending, state.isometry,
-                                   state.thickness))
+                 + shape_equations(problem, state.control_points, stage.bending, state.trust))
     if stage.soft:
         borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)

@@ -12,6 +12,7 @@ from ..splines import Array
 from .cholesky import FrontCholesky
 from .lattice import Index
 from .problem import Problem
+from .settings import Trust
 from .values import CellValues, nothing
 
 _TYPICAL, _SEEN = 0.75, 0.4
@@ -30,12 +31,9 @@ class State:
     control_points : (controls, 3) displacement in mm
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
-    isometry : (spans,) weight of the strain per mm²
     values : of the last iteration
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
-    thickness : multiplies the weight of the sheets' thickness
-    strain : rms strain found on observed faces
-    faces_off : whether isometry kept several faces from following the scan
+    trust : in the priors
     near : scan points near the edges, once they are needed
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     factor : of an earlier normal matrix; after the last stage of one with all data
@@ -46,12 +44,9 @@ class State:
     control_points: Array
     noise: Array
     reach: float
-    isometry: Array
     values: CellValues
     facing: Array | None = None
-    thickness: float = 1.0
-    strain: float = 0.0
-    faces_off: bool = False
+    trust: Trust = field(default_factory=Trust)
     near: Array = field(default_factory=lambda: np.zeros((0, 3)))
     nearest: Index | None = None
     factor: FrontCholesky | None = None
@@ -81,4 +76,4 @@ def start(problem: Problem) -> State:
     noise = np.full(faces, problem.statistics.noise)
     return State(np.zeros((problem.lattices.count, 3)), noise,
                  max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
-                 np.zeros(len(problem.lattices.controls)), nothing(problem.distance.size, noise))
+                 nothing(problem.distance.size, noise))

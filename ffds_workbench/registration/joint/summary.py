@@ -11,7 +11,6 @@ from ...errors import RefusedError
 from ..splines import Array
 from .bands import edge_bands, normal_bands
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
-from .isometry import is_isometric
 from .lattice import Index
 from .problem import Problem
 from .raster import normals
@@ -19,6 +18,7 @@ from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidM
 from .samples import sample
 from .sheet import parameters
 from .state import State
+from .trust import is_isometric, observed_strain
 
 _NOT_CONVERGED = 0.5
 _FEWEST_USED = 50
@@ -87,7 +87,7 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
     return JointRegistration(
         faces=_faces(problem, state, inverse, seen), edges=_edges(problem, state, inverse, seen),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
-        thickness=_thickness(problem, state), strain=state.strain, isometric=is_isometric(state),
+        thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()))
 
 

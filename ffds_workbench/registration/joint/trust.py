@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How far each prior is trusted: a part that visibly stretched, sheared or bent more than expected is held less.
+
+Every prior is a sum of squares in chi-square units. What the scan makes the solve pay for it is to be about the number
+of shapes that the scan tells of it (MacKay, Neural Computation 4, 1992, eq. 4.8): a prior that costs more is too tight.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..splines import Array
+from .problem import Problem
+from .raster import normals
+from .settings import Stage, Trust
+from .state import State
+
+_EXPECTED = Trust(isometry=80.0, thickness=20.0, shear=10.0, dihedral=6.0)
+"""Shapes that a scan tells of a part for each prior; traces of the covariance give half to twice of these."""
+_CONTROLS = 1000.0
+"""Parts with more control points than this have more of them."""
+_LEAST = 1e-3
+_OFF = 1e-6
+_ISOMETRIC = 0.1
+"""A part counts as isometric while its isometry is trusted by more than this."""
+_OBSERVED = 0.3
+"""Share of a span's cells that make it observed."""
+
+
+def judge(problem: Problem, state: State, stage: Stage) -> State:
+    """The state with its trust in the priors renewed; until the soft stages all are trusted."""
+    trust, mode = Trust(), problem.settings.isometry
+    if stage.soft:
+        cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
+        trust = Trust(**{name: float(np.clip(number * getattr(_EXPECTED, name) / max(getattr(cost, name), 1e-12),
+                                             _LEAST, 1.0)) for name in vars(trust)})
+    if mode != "auto":
+        trust = replace(trust, isometry=1.0 if mode == "on" else _OFF)
+    return replace(state, trust=trust)
+
+
+def costs(problem: Problem, control_points: Array) -> Trust:
+    """What each prior costs at the current shape with its full weight, in chi-square units."""
+    couplings = problem.couplings
+    strain = (problem.stiffness.weight * (strain_at(problem, control_points) ** 2).sum(axis=2)).sum(axis=1)
+    across, along = couplings.thickness_misfit(control_points)
+    weight = couplings.thickness_weight
+    return Trust(isometry=float((problem.skin * problem.isometry_weights(Trust()) * strain).sum()),
+                 thickness=float((weight * across**2).sum()),
+                 shear=float((weight[:, None] * along**2).sum()),
+                 dihedral=float((couplings.dihedral_weight * couplings.angle_change(control_points) ** 2).sum()))
+
+
+def strain_at(problem: Problem, control_points: Array) -> Array:
+    """Strain of the mid surface at the Gauss places: (spans, k, 3)."""
+    stiffness = problem.stiffness
+    jet = stiffness.places.displaced(problem.lattices, control_points, 3)
+    normal = normals(jet, stiffness.places.outward)[0]
+    return stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)[0]
+
+
+def observed_strain(problem: Problem, state: State) -> float:
+    """Rms strain of the mid surface over the observed spans of sheets (of all faces, if there is no sheet)."""
+    stiffness = problem.stiffness
+    strain = strain_at(problem, state.control_points)
+    cells = problem.cells.inside
+    seen = (state.values.weight.reshape(cells.shape) > 0).sum(axis=1) > _OBSERVED * cells.sum(axis=1)
+    if problem.skin.any():
+        seen &= problem.skin
+    area = stiffness.area * seen[:, None]
+    return float(np.sqrt((area[..., None] * strain**2).sum() / max(area.sum(), 1e-12)))
+
+
+def is_isometric(state: State) -> bool:
+    """Whether what the scan shows lets the part count as isometric."""
+    return state.trust.isometry > _ISOMETRIC
