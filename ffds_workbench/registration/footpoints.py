@@ -2,7 +2,7 @@
 """Foot points: the (u, v) of the surface point below a scan point, and the signed height of the scan point over it."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -103,44 +103,33 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
     in the quadratic frames of the cells, the last one in the cell it ends in: the height is right to third order of the
     cell size.
     """
-    found = _Collector(len(points), raster)
-    for some in _located(raster, points, reach):
-        found.add(some if margin is None else some.on_face(raster, margin))
-    return found.all()
-
-
-def inner_and_rim(raster: Raster, points: Array, reach: float, margin: float
-                  ) -> tuple[SurfaceCoordinates, SurfaceCoordinates]:
-    """The same for the trimmed face: those at least ``margin`` mm from the trims, and those nearer to them."""
-    inner, rim = _Collector(len(points), raster), _Collector(len(points), raster)
-    for some in _located(raster, points, reach):
-        depth = some.depth(raster)
-        inner.add(some.part(np.flatnonzero(depth >= margin)))
-        rim.add(some.part(np.flatnonzero((depth >= 0) & (depth < margin))))
-    return inner.all(), rim.all()
-
-
-class _Collector:
-    """Room for as many points as the scan has; memory is touched, and so taken, only as far as points are added."""
-
-    def __init__(self, most: int, raster: Raster) -> None:
-        x, y, height = np.empty((3, most))
-        self._room = SurfaceCoordinates(np.empty(most, dtype=np.intp), x, y, height, raster.shape)
-        self._count = 0
-
-    def add(self, some: SurfaceCoordinates) -> None:
-        part = slice(self._count, self._count + len(some.x))
+    x, y, height = np.empty((3, len(points)))      # touched, and so taken, no farther than points are found
+    found = SurfaceCoordinates(np.empty(len(points), dtype=np.intp), x, y, height, raster.shape)
+    count = 0
+    for some in located(raster, points, reach, make_locator(raster, reach)):
+        if margin is not None:
+            some = some.on_face(raster, margin)
+        part = slice(count, count + len(some.x))
         for name in _COLUMNS:
-            getattr(self._room, name)[part] = getattr(some, name)
-        self._count = part.stop
-
-    def all(self) -> SurfaceCoordinates:
-        return self._room.part(slice(self._count))
+            getattr(found, name)[part] = getattr(some, name)
+        count = part.stop
+    return found.part(slice(count))
 
 
-def _located(raster: Raster, points: Array, reach: float) -> Iterator[SurfaceCoordinates]:
-    """The scan points within reach and over the parameter range, piece by piece."""
-    locate = _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
+def joined(parts: Sequence[SurfaceCoordinates], raster: Raster) -> SurfaceCoordinates:
+    """All of several."""
+    index = np.concatenate([part.index for part in parts] or [np.zeros(0, dtype=np.intp)])
+    x, y, height = (np.concatenate([getattr(part, name) for part in parts] or [np.zeros(0)]) for name in _COLUMNS[1:])
+    return SurfaceCoordinates(index, x, y, height, raster.shape)
+
+
+def make_locator(raster: Raster, reach: float) -> Locator:
+    """What finds the foot points on this face, of points within ``reach`` mm."""
+    return _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
+
+
+def located(raster: Raster, points: Array, reach: float, locate: Locator) -> Iterator[SurfaceCoordinates]:
+    """The scan points within reach and over the parameter range, piece by piece; ``locate`` from `make_locator`."""
     for first in range(0, len(points), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach

@@ -6,9 +6,8 @@ nominal foot point at (x + shift) and the height H there. So the scan is compare
 """
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,8 @@ from numpy.typing import NDArray
 from .bending import bending_and_gauge
 from .control_lattice import ControlLattice
 from .face import FaceGeometry
-from .footpoints import SurfaceCoordinates, newton_in_cells
+from .face_points import FacePoints
+from .footpoints import SurfaceCoordinates, joined, newton_in_cells
 from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
 from .raster import Raster, dot
 from .splines import Array, SplineSurface, basis_matrix, tensor_product
@@ -143,21 +143,20 @@ class RasterFit:
         d, d_x, d_y = fields
         return State(d, d_x, d_y)
 
-    def step(self, state: State, data: SurfaceCoordinates | Layers, noise: float, stiffness: float,
-             gate: float, rim: SurfaceCoordinates | None = None) -> State:
+    def step(self, state: State, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
+             gate: float) -> State:
         """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
         ----------
-        data : scan points, or their layers
+        data : scan points, or their layers; `FacePoints` near the trims count where they agree with the surface
         noise : standard deviation of a point along the normal, in mm
         stiffness : multiplier of the bending energy
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
-        rim : further scan points, near the trims: they count where they agree with the current surface
         """
         graph = self._graph(state)
         gate = max(gate, _NOISE_CUT * noise)
-        seen = self._cells(graph, data, gate, None if rim is None else self._agreeing(graph, rim, noise, gate))
+        seen = self._cells(graph, self._parts(graph, data, noise, gate), gate)
         mean = np.divide(seen.moment, seen.weight, out=np.zeros_like(seen.weight), where=seen.weight > 0)
         certainty = np.where(graph.usable, seen.weight, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
@@ -217,16 +216,26 @@ class RasterFit:
         used = (hits >= (1 - _STRAY) * total) & (np.abs(mean) <= off)
         return rim.part(np.flatnonzero(used[block] & near))
 
-    def _cells(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float,
-               rim: SurfaceCoordinates | None = None) -> _Cells:
+    def _parts(self, graph: _Graph, data: FacePoints | SurfaceCoordinates | Layers, noise: float, gate: float
+               ) -> Iterator[tuple[SurfaceCoordinates | Layers, int]]:
+        """The data piece by piece, and every which of them shall be asked for the noise."""
+        if isinstance(data, FacePoints):
+            every, rim = max(1, data.count // self.settings.sample), []
+            for inner, near_trims in data.pieces():
+                yield inner, every
+                rim.append(near_trims)
+            yield self._agreeing(graph, joined(rim, self.raster), noise, gate), every
+        elif isinstance(data, SurfaceCoordinates):
+            for inner in data.chunks():
+                yield inner, 1
+        else:
+            yield data, 1
+
+    def _cells(self, graph: _Graph, parts: Iterable[tuple[SurfaceCoordinates | Layers, int]], gate: float) -> _Cells:
         """Weigh the data and sum them up cell by cell."""
         cells = len(self.raster.inside)
         sums, spread = np.zeros((3, cells)), []
-        parts: Iterable[SurfaceCoordinates | Layers] = [data]
-        if isinstance(data, SurfaceCoordinates):
-            parts = chain(data.chunks(), [] if rim is None else [rim])
-        every = max(1, len(data.x) // self.settings.sample)
-        for part in parts:
+        for part, every in parts:
             cell, residual, weight = self._weighed(graph, part, gate)
             residual[weight == 0] = 0
             for total, values in zip(sums, (weight, weight * residual, weight > 0), strict=True):

@@ -16,7 +16,7 @@ from ..errors import RefusedError
 from .control_lattice import displacement_lattice
 from .coverage import covered_share
 from .face import FaceGeometry
-from .footpoints import SurfaceCoordinates, inner_and_rim
+from .face_points import FacePoints, face_points
 from .lattice_size import automatic_lattice, coarse_lattice
 from .normals import facing, scan_normals
 from .patches import main_patches, patches, proven
@@ -27,7 +27,7 @@ from .splines import Array
 from .start import dense_layers, rigid_start
 
 _FEWEST_POINTS, _FEWEST_FITTED = 30, 20
-_MANY_WALLS, _MOST_NORMALS = 0.1, 50000
+_MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
 """Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
 
 
@@ -50,14 +50,15 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     settings = settings or RobustSettings()
     raster = make_raster(face)
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
-    points, rim = inner_and_rim(raster, scan, settings.reach, margin)
+    points = face_points(raster, scan, settings.reach, margin, settings.sample)
     _check_points(face, points, settings)
-    layers = dense_layers(raster, points.sample(settings.sample))
-    if np.mean(~layers.thin) > _MANY_WALLS and len(points.x) <= _MOST_NORMALS:
-        points = points.part(np.flatnonzero(facing(raster, points, scan_normals(scan[points.index]))))
+    layers = dense_layers(raster, points.sample)
+    if np.mean(~layers.thin) > _MANY_WALLS and points.kept is not None and points.count <= _MOST_NORMALS:
+        inner = points.kept[0]
+        points = points.only(facing(raster, inner, scan_normals(scan[inner.index])))
         _check_points(face, points, settings)
-        layers = dense_layers(raster, points.sample(settings.sample))
-    layers = replace(layers, density=layers.density * max(1.0, len(points.x) / settings.sample))
+        layers = dense_layers(raster, points.sample)
+    layers = replace(layers, density=layers.density * max(1.0, points.count / settings.sample))
     size = lattice or coarse_lattice(raster, layers, settings.stiffness)
     fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     _check_lattice(face, fit, points, lattice is None)
@@ -82,19 +83,17 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     fit.ignored = ignored
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
-        last = k == len(settings.final) - 1
-        some = points if last else points.sample(settings.sample)
-        state = fit.step(state, some, noise, stiffness, gate, rim if last else None)
+        state = fit.step(state, points if k == len(settings.final) - 1 else points.sample, noise, stiffness, gate)
         noise = state.noise
     _check_found(face, state.points)
     coverage = covered_share(raster, state.weights)
     return FaceRegistration(face.name, fit.field(state), state.points, coverage, state.noise)
 
 
-def _check_points(face: FaceGeometry, points: SurfaceCoordinates, settings: RobustSettings) -> None:
-    if len(points.x) < _FEWEST_POINTS:
+def _check_points(face: FaceGeometry, points: FacePoints, settings: RobustSettings) -> None:
+    if points.count < _FEWEST_POINTS:
         raise RefusedError(
-            f"The scan does not lie on {face.name}: {len(points.x)} of its points are within {settings.reach:g} mm of "
+            f"The scan does not lie on {face.name}: {points.count} of its points are within {settings.reach:g} mm of "
             f"the face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
 
 
@@ -104,14 +103,15 @@ def _check_found(face: FaceGeometry, points: int) -> None:
                            f"one; leave the face out, or check the alignment of the scan.")
 
 
-def _check_lattice(face: FaceGeometry, fit: RasterFit, points: SurfaceCoordinates, automatic: bool) -> None:
-    for some in (points.sample(fit.settings.sample), points):
-        occupied = np.count_nonzero(np.bincount(some.in_cell[0]))
-        if fit.lattice.free <= occupied:
-            return
+def _check_lattice(face: FaceGeometry, fit: RasterFit, points: FacePoints, automatic: bool) -> None:
+    if fit.lattice.free <= np.count_nonzero(np.bincount(points.sample.in_cell[0])):
+        return
+    occupied = points.occupied()
+    if fit.lattice.free <= occupied:
+        return
     if automatic:
         raise RefusedError(
-            f"The scan shows too little of {face.name}: its {len(points.x)} points lie in {occupied} places, and at "
+            f"The scan shows too little of {face.name}: its {points.count} points lie in {occupied} places, and at "
             f"least {fit.lattice.free} are needed; leave the face out or scan it from another side.")
     rows, columns = fit.lattice.unknown.shape
     raise RefusedError(

@@ -6,7 +6,8 @@ import pytest
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.face import FaceGeometry
-from ffds_workbench.registration.footpoints import inner_and_rim, surface_coordinates
+from ffds_workbench.registration.face_points import face_points
+from ffds_workbench.registration.footpoints import surface_coordinates
 from ffds_workbench.registration.projection import project
 from ffds_workbench.registration.raster import make_raster
 
@@ -58,16 +59,19 @@ def test_projection_is_exact(ball):
     np.testing.assert_allclose(found.height, height, atol=1e-5)
 
 
-def test_inner_and_rim_share_the_face():
-    scan = sheet.scan("D", 0)
+@pytest.mark.parametrize("points", [20_000, 300_000], ids=["kept", "located anew"])
+def test_inner_points_and_rim_share_the_face(points):
+    scan = sheet.scan("D", 0, points)
     raster = make_raster(sheet.nominal())
-    inner, rim = inner_and_rim(raster, scan, 10.0, 0.7)
+    found = face_points(raster, scan, 10.0, 0.7, 5000)
+    inner, rim = (np.concatenate([piece[k].index for piece in found.pieces()]) for k in (0, 1))
     x, y = scan[:, 0], scan[:, 1]
     nearest, next_nearest = np.sort([x, sheet.SIZE[0] - x, y, sheet.SIZE[1] - y], axis=0)[:2]
     nearest[next_nearest < 2.5] = np.nan      # in the corners, within two cells, depth is not linear as it is taken
-    assert np.nanmin(nearest[inner.index]) > 0.6 and np.nanmax(nearest[rim.index]) < 0.8
+    assert np.nanmin(nearest[inner]) > 0.6 and np.nanmax(nearest[rim]) < 0.8
     whole = surface_coordinates(raster, scan, 10.0, 0.0).index
-    np.testing.assert_array_equal(np.sort(np.concatenate([inner.index, rim.index])), whole)
+    np.testing.assert_array_equal(np.sort(np.concatenate([inner, rim])), whole)
+    assert len(found.sample.x) == 5000 and found.count == pytest.approx(len(inner), rel=0.02)
 
 
 def test_points_elsewhere_are_left_out():
