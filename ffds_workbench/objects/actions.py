@@ -22,13 +22,28 @@ from .seams import add_trajectories, export_program, make_seams
 from .sources import read_source, standing_for
 
 __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
-           "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "simulate_scan"]
+           "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "replace_scan",
+           "simulate_scan"]
 
 
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
     """A Points object of one scan file, or of several of one part; ``unit`` is that of the files."""
     names = [paths] if isinstance(paths, str) else list(paths)
     return scans.add_scan(document, api.read_scan(names, unit).points, Path(names[0]).stem)
+
+
+def replace_scan(scan: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
+    """Put the points of another file, or of several, into a Points object; what depends on it is recomputed.
+
+    Raises
+    ------
+    InputError : a file cannot be read
+    """
+    names = [paths] if isinstance(paths, str) else list(paths)
+    scans.set_points(scan, api.read_scan(names, unit).points)
+    scan.Label = Path(names[0]).stem
+    scan.Document.recompute()
+    return scan
 
 
 def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:

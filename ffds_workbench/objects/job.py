@@ -78,5 +78,10 @@ def make_job(item: Any, scan: Any, settings: Settings) -> Job:
     ------
     InputError : the part or the scan cannot be used
     """
+    return job_on(item, scan_points(scan), settings)
+
+
+def job_on(item: Any, points: NDArray[np.float64], settings: Settings) -> Job:
+    """The registration of a document object to points (n, 3) in the document's coordinates; see `make_job`."""
     source = read_source(item)
-    return Job(source, source.to_part(scan_points(scan)), settings)
+    return Job(source, source.to_part(points), settings)

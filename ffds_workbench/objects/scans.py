@@ -11,6 +11,7 @@ import numpy as np
 import Points
 from numpy.typing import NDArray
 
+from ..brep.files import outer_placement
 from ..errors import InputError
 
 Array = NDArray[np.float64]
@@ -56,10 +57,22 @@ def add_scan(document: Any, points: Array, label: str) -> Any:
 
 def set_points(item: Any, points: Array) -> None:
     """Replace the points of a Points object by (n, 3) in the coordinates of what holds it; its placement is reset."""
-    centre = np.round(np.median(points, axis=0))
-    origin = centre if np.abs(points).max() > _FAR else np.zeros(3)
+    origin = _origin(points)
     item.Points = _kernel(points - origin)
     item.Placement = FreeCAD.Placement(FreeCAD.Vector(*origin.tolist()), FreeCAD.Rotation())
+
+
+def as_stored(item: Any, points: Array) -> Array:
+    """What `scan_points` will give after ``set_points(item, points)``."""
+    origin = _origin(points)
+    placement = FreeCAD.Placement(FreeCAD.Vector(*origin.tolist()), FreeCAD.Rotation())
+    matrix = _matrix(outer_placement(item).multiply(placement))
+    rows = (points - origin).astype(np.float32).astype(float)
+    return rows @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def _origin(points: Array) -> Array:
+    return np.round(np.median(points, axis=0)) if np.abs(points).max() > _FAR else np.zeros(3)
 
 
 def _kernel(points: Array) -> Points.Points:

@@ -63,6 +63,49 @@ class Hands:
         self.until(lambda: not Gui.Control.activeDialog())
         self.wait(300)
 
+    def choose(self, *texts: str) -> None:
+        """Click through the menus: ``choose("FFDS", "Import scan…")``."""
+        bar = Gui.getMainWindow().menuBar()
+        for text in texts:
+            found = [item for item in bar.actions() if item.text().replace("&", "") == text]
+            assert found, f"no '{text}' among {[item.text() for item in bar.actions()]}"
+            self.until(found[0].isEnabled, 5)
+            QtTest.QTest.mouseClick(bar, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier,
+                                    bar.actionGeometry(found[0]).center(), 10)
+            self.wait(200)
+            bar = QtWidgets.QApplication.activePopupWidget()
+
+    def press(self, key: int, modifier: int = QtCore.Qt.ControlModifier) -> None:
+        """A shortcut of the main window, which without a window manager does not become active by itself."""
+        Gui.getMainWindow().activateWindow()
+        self.wait()
+        QtTest.QTest.keyClick(Gui.getMainWindow(), key, modifier, 10)
+        self.wait(300)
+
+    def name_file(self, path: Path) -> list[str]:
+        """Paste a path into the next file dialog and press Enter."""
+        def enter(dialog: QtWidgets.QWidget) -> None:
+            field = dialog.findChild(QtWidgets.QLineEdit, "fileNameEdit")
+            QtWidgets.QApplication.clipboard().setText(str(path))
+            field.selectAll()
+            QtTest.QTest.keyClick(field, QtCore.Qt.Key_V, QtCore.Qt.ControlModifier)
+            QtTest.QTest.keyClick(field, QtCore.Qt.Key_Return)
+
+        return self.answer(enter)
+
+    def drawn(self) -> bytes:
+        """The coordinates of what the newest top node of the view draws."""
+        from pivy import coin
+
+        graph = Gui.ActiveDocument.ActiveView.getSceneGraph()
+        search = coin.SoSearchAction()
+        search.setType(coin.SoCoordinate3.getClassTypeId())
+        search.setInterest(coin.SoSearchAction.ALL)
+        search.apply(graph.getChild(graph.getNumChildren() - 1))
+        paths = search.getPaths()
+        return b"".join(str([tuple(point.getValue()) for point in paths[k].getTail().point.getValues()][:50]).encode()
+                        for k in range(paths.getLength()))
+
     def command(self, name: type) -> None:
         """Trigger the command's entry in the workbench's menu, once it is no longer grey."""
         text = name.MENU
@@ -114,8 +157,10 @@ class Hands:
             subprocess.run(["import", "-window", "root", str(Path(SHOTS) / f"{name}.png")], check=True)
 
     def nodes(self) -> int:
-        """Top nodes of the active view's scene graph."""
-        return Gui.ActiveDocument.ActiveView.getSceneGraph().getNumChildren()
+        """Top nodes of the active view's scene graph, and those of the group in which FreeCAD 1.0 holds the objects."""
+        graph = Gui.ActiveDocument.ActiveView.getSceneGraph()
+        top = [graph.getChild(k) for k in range(graph.getNumChildren())]
+        return sum(node.getNumChildren() if node.getTypeId().getName() == "Group" else 1 for node in top)
 
 
 @pytest.fixture
@@ -126,6 +171,8 @@ def hands(monkeypatch):
     Gui.getMainWindow().showMaximized()
     Gui.activateWorkbench("FFDSWorkbench")
     before = used.report()
+    used.until(lambda: Gui.getMainWindow().findChild(QtWidgets.QDockWidget, "Combo View"), 5)
+    Gui.getMainWindow().findChild(QtWidgets.QDockWidget, "Combo View").show()
     yield used
     if Gui.Control.activeDialog():
         Gui.Control.closeDialog()

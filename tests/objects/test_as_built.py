@@ -209,6 +209,20 @@ def test_far_scans_keep_their_precision(document):
     assert np.abs(scans.scan_points(item) - points).max() < 1e-6  # float32 holds 10 mm to 1e-6 mm
 
 
+def test_a_replaced_scan_takes_the_part_along_and_is_known_beforehand(document, tmp_path):
+    plate, scan = add_plate(document)
+    item = actions.make_as_built(plate, scan, faces=["Face6"], lattice=(8, 8))
+    group = document.addObject("App::Part", "Group")
+    group.addObject(scan)
+    for shift in (0.0, 5000.0):
+        group.Placement.Base.x = -shift
+        np.savetxt(tmp_path / "second.xyz", plate_scan(2.0) + [shift, 0, 0])
+        expected = scans.as_stored(scan, np.loadtxt(tmp_path / "second.xyz"))
+        actions.replace_scan(scan, str(tmp_path / "second.xyz"))
+        assert scan.Label == "second" and np.array_equal(scans.scan_points(scan), expected)
+        assert height_at_middle(item.Shape) == pytest.approx(20 - 7, abs=2 * NOISE)
+
+
 def test_the_example_and_the_export(document, tmp_path):
     part, scan = actions.load_example(document)
     assert len(scans.scan_points(scan)) > 50000
