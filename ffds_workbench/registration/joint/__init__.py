@@ -6,7 +6,8 @@ Read `solve.register_joint` first; the other modules each own one noun of it.
 from .live import LiveJoint
 from .part import JointPart, SharedEdge
 from .result import EdgeRegistration, JointFace, JointRegistration, SolidMotion
-from .settings import JointSettings, SensorProfile
+from .sensor import SensorProfile
+from .settings import JointSettings
 from .solve import register_joint
 
 __all__ = ["EdgeRegistration", "JointFace", "JointPart", "JointRegistration", "JointSettings", "LiveJoint",

@@ -95,15 +95,15 @@ class FrontCholesky:
         for number in range(len(layout.fronts) - 1, -1, -1):
             front, z = layout.fronts[number], layout.matrix(flat, number)
             k = 3 * len(front.own)
-            inverse = blas.dtrsm(1.0, self.own[number], np.eye(k, order="F"), lower=1)
-            z[:k, :k] = inverse.T @ inverse
+            lower = np.tril(lapack.dpotri(self.own[number], lower=1)[0])
+            z[:k, :k] = lower + np.tril(lower, -1).T
             if front.parent >= 0:
                 places = layout.parent_places[number]
                 z[k:, k:] = layout.matrix(flat, front.parent)[np.ix_(places, places)]
-                reach = self.border[number].T @ inverse
-                z[k:, :k] = -z[k:, k:] @ reach
-                z[:k, :k] -= reach.T @ z[k:, :k]
-                z[:k, k:] = z[k:, :k].T
+                reach = blas.dtrsm(1.0, self.own[number], self.border[number], lower=1, trans_a=1)
+                z[:k, k:] = -reach @ z[k:, k:]
+                z[k:, :k] = z[:k, k:].T
+                z[:k, :k] -= reach @ z[k:, :k]
         return flat[layout.target].reshape(-1, 3, 3)
 
 

@@ -7,28 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-
-@dataclass(frozen=True)
-class SensorProfile:
-    """What is known of a sensor's noise beforehand; it is a property of the sensor, measured on a flat datum.
-
-    Attributes
-    ----------
-    sigma : white noise in mm, or None to take it from the scan
-    sigma_correlated : noise in mm that neighbouring points share
-    length : correlation length in mm: the correlation falls as exp(−r²/2l²)
-    """
-
-    sigma: float | None = None
-    sigma_correlated: float = 0.0
-    length: float = 0.0
-
-    def inflation(self, noise: float, density: float) -> float:
-        """Ratio of the variance of a smooth fit to that on white noise alone: 1 + 2π l² σ_c² ρ/σ².
-
-        ``noise`` is the white noise in mm, ``density`` in points per mm².
-        """
-        return 1.0 + 2 * np.pi * self.length**2 * self.sigma_correlated**2 * density / noise**2
+from .sensor import SensorProfile
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,8 @@ from ..splines import Array
 from .bands import edge_bands, normal_bands
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
 from .lattice import Index
+from .misfit import misfit, nearest_spans
+from .posterior import covariance_blocks
 from .problem import Problem
 from .raster import normals
 from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidMotion
@@ -80,12 +82,12 @@ def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
-    assert state.factor is not None
-    inverse = state.factor.inverse_blocks()
+    covariance = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
+    off = misfit(problem, state.values)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     return JointRegistration(
-        faces=_faces(problem, state, inverse, seen), edges=_edges(problem, state, inverse, seen),
+        faces=_faces(problem, state, covariance, seen, off), edges=_edges(problem, state, covariance, seen, off),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()))
@@ -101,7 +103,7 @@ def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
     return tuple(result)
 
 
-def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[JointFace, ...]:
+def _faces(problem: Problem, state: State, covariance: Array, seen: Coverage, off: Array) -> tuple[JointFace, ...]:
     places, lattices = problem.stiffness.places, problem.lattices
     jet = places.displaced(lattices, state.control_points, 3)
     normal = normals(jet, places.outward)[0]
@@ -111,7 +113,8 @@ def _faces(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
     gap_inside = seen.gap_of(face, places.nominal.position[span, place])
     gap = np.zeros(places.inside.shape)
     gap[span, place] = gap_inside
-    bands = normal_bands(problem, inverse, places.tables[0], normal, gap, _border(problem))[span, place]
+    beyond = np.maximum(gap - 2 * seen.near, 0.0)
+    bands = normal_bands(problem, covariance, places.tables[0], normal, beyond, _border(problem), off)[span, place]
     flags = seen.flags(gap_inside, face, 2 * seen.near)
     points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
     result = []
@@ -130,7 +133,8 @@ def _border(problem: Problem) -> Array:
     return problem.distance[:, cell[:, 0] * per_span + cell[:, 1]]
 
 
-def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tuple[EdgeRegistration, ...]:
+def _edges(problem: Problem, state: State, covariance: Array, seen: Coverage, off: Array
+           ) -> tuple[EdgeRegistration, ...]:
     part, lattices = problem.part, problem.lattices
     edges = [edge for edge in part.edges if edge.faces]
     number = np.concatenate([np.full(len(edge.points), k) for k, edge in enumerate(part.edges) if edge.faces])
@@ -142,7 +146,9 @@ def _edges(problem: Problem, state: State, inverse: Array, seen: Coverage) -> tu
     gaps = [seen.gap_of(face, nominal) for face in (first, last)]
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
     flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
-    bands = edge_bands(problem, inverse, samples, _directions(points, number), gap)
+    spans = nearest_spans(problem, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
+    bands = edge_bands(problem, covariance, samples, _directions(points, number), gap,
+                       off[spans].reshape(2, -1).max(axis=0))
     result = []
     for index, edge in enumerate(part.edges):
         own = number == index

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The covariance of the control points, with priors that are as wide as the scan shows them to have to be."""
+from __future__ import annotations
+
+from ..splines import Array
+from .assembly import border_equations, data_equations, shape_equations
+from .boundary import find_borders
+from .cholesky import FrontCholesky
+from .problem import Problem
+from .state import State
+from .trust import costs
+
+_SAME = 1.2
+"""Ratio up to which the priors of the solve are as wide as they should be."""
+
+
+def covariance_blocks(problem: Problem, state: State) -> Array:
+    """Blocks (size, 3, 3) of the covariance on the pattern.
+
+    In chi-square units the normal matrix is the inverse of the covariance. What the priors cost, over the number of
+    shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
+    Computation 4, 1992, eq. 4.8, for all priors together).
+    """
+    assert state.factor is not None
+    inverse = state.factor.inverse_blocks()
+    prior = shape_equations(problem, state.control_points, 1.0, state.trust).blocks
+    told = 3 * problem.lattices.count - float((inverse * prior).sum())
+    cost, trust = costs(problem, state.control_points), state.trust
+    paid = sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust))
+    ratio = paid / max(told, 1.0)
+    if ratio < _SAME:
+        return inverse
+    data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values).blocks
+    borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
+                           problem.statistics.noise)
+    data = data + border_equations(problem, borders).blocks
+    return FrontCholesky(problem.pattern.layout, data + prior / ratio).inverse_blocks()
