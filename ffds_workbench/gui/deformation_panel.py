@@ -48,7 +48,8 @@ class DeformationPanel:
         self._take(item, chosen(), whole)
         self._overlay = Overlay(document.Name)
         self._drawing = PreviewDrawing(self._overlay)
-        self._runner = PreviewRunner(self._draw, self._draw_nothing, self.form.show_progress)
+        self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
+        self.form.destroyed.connect(self._let_go)
         self.form.changed.connect(self._preview)
         Gui.Selection.addObserver(self)
         self._watching = True
@@ -143,9 +144,15 @@ class DeformationPanel:
             self._runner.stop()
             self._draw_nothing(refusal)
 
+    def _told(self, text: str) -> None:
+        if self._watching:
+            self.form.show_progress(text)
+
     def _draw_nothing(self, failure: BaseException) -> None:
         if not isinstance(failure, FfdsError):
             raise failure
+        if not self._watching:
+            return
         self._overlay.show([])
         self._overlay.cover()
         self.form.show_figures(None, self._hint or str(failure))
@@ -208,6 +215,13 @@ class DeformationPanel:
         return True
 
     def _close(self) -> None:
+        if self._watching:
+            self._let_go()
+            Gui.Selection.clearSelection()
+            QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
+
+    def _let_go(self, *_: Any) -> None:
+        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
         if not self._watching:
             return
         self._watching = False
@@ -218,8 +232,6 @@ class DeformationPanel:
                 self._worker.cancel()
         finally:
             self._overlay.remove()
-            Gui.Selection.clearSelection()
-        QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""

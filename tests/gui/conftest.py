@@ -103,8 +103,9 @@ class Hands:
         search.setInterest(coin.SoSearchAction.ALL)
         search.apply(graph.getChild(graph.getNumChildren() - 1))
         paths = search.getPaths()
-        return b"".join(str([tuple(point.getValue()) for point in paths[k].getTail().point.getValues()][:50]).encode()
-                        for k in range(paths.getLength()))
+        fields = [paths[k].getTail().point for k in range(paths.getLength())]
+        places = [field[k].getValue() for field in fields for k in range(0, field.getNum(), 1 + field.getNum() // 9)]
+        return repr(places).encode()
 
     def command(self, name: type) -> None:
         """Trigger the command's entry in the workbench's menu, once it is no longer grey."""

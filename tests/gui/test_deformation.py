@@ -205,7 +205,8 @@ def test_a_recorded_session_replays_without_a_gui(hands, tmp_path):
         if "ffds_workbench" in text or "newDocument" in text:
             lines.append(text)
     macro = tmp_path / "session.py"
-    macro.write_text("\n".join(["import FreeCAD", *lines, "print('volume:', repr(FreeCAD.ActiveDocument.AsBuilt.Shape.Volume))"]))
+    said = "print('volume:', repr(FreeCAD.ActiveDocument.AsBuilt.Shape.Volume))"
+    macro.write_text("\n".join(["import FreeCAD", *lines, said]))
     code = f"exec(open({str(macro)!r}).read())"
     done = subprocess.run(["freecadcmd", "-c", code], capture_output=True, text=True, timeout=120)
     assert done.stdout.strip(), (macro.read_text(), done.stderr, done.returncode)
