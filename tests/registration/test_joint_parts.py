@@ -70,7 +70,7 @@ def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
     inside = stiffness.places.inside
     hessian = np.matmul(stiffness.hessian, points[lattices.controls][:, None])
     bending = hessian - stiffness.curvature[..., None] * (normal - stiffness.normal)[:, :, None, :]
-    strain = stiffness.strain(lattices, points, normal, np.full(len(inside), 3.0))[0]
+    strain = stiffness.strain(lattices, points, normal, np.full(len(inside), 3.0))
     # A cubic with spans of 25° follows a circle's field to about 1e-3 of its size; its second derivative to 1 %.
     assert np.abs(bending[inside]).max() < 0.02 * angle / 12
     assert np.abs(strain[inside]).max() < 2e-3 * angle
@@ -82,9 +82,9 @@ def test_strain_derivative(cylinder, lattices):
     points, change = 0.1 * random.normal(size=(2, lattices.count, 3))
     thickness = np.zeros(len(lattices.controls))
     normal = normals(stiffness.places.displaced(lattices, points, 3), stiffness.places.outward)[0]
-    rows = stiffness.strain(lattices, points, normal, thickness)[1]
+    rows = stiffness.strain_rows(lattices, points, normal, thickness)
     step = 1e-6
-    ends = [stiffness.strain(lattices, points + s * change, normal, thickness)[0] for s in (step, -step)]
+    ends = [stiffness.strain(lattices, points + s * change, normal, thickness) for s in (step, -step)]
     expected = (ends[0] - ends[1]) / (2 * step)
     assert np.einsum("skpcx,scx->skp", rows, change[lattices.controls]) == pytest.approx(expected, abs=1e-6)
 

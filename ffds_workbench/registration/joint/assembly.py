@@ -94,7 +94,8 @@ def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:
 
 
 def _isometry(problem: Problem, control_points: Array, normal: Array, isometry: Array) -> NormalEquations:
-    strain, rows = problem.stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
+    strain, rows = (of(problem.lattices, control_points, normal, problem.sheet_of_span)
+                    for of in (problem.stiffness.strain, problem.stiffness.strain_rows))
     spans = len(rows)
     flat = rows.reshape(spans, -1, 48)
     weight = np.repeat(problem.stiffness.weight * isometry[:, None], 3, axis=1)[:, :, None]

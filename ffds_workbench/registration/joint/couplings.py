@@ -51,6 +51,8 @@ class Couplings:
     shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
     thickness : (3 controls, 3 controls) that of its part along the normal
     pairs, edges : the places that are coupled
+    pair_normal : (pairs, 3) nominal normal of the sheets
+    angle : (samples,) nominal angle of the edges in rad
     thickness_rows : (pairs, controls) d_back − d_front
     thickness_weight : (pairs,) 1/mm²
     dihedral : (3 controls, 3 controls) normal matrix of the edge angles
@@ -63,6 +65,8 @@ class Couplings:
     thickness: csr_matrix
     pairs: SheetPairs
     edges: EdgeSamples
+    pair_normal: Array
+    angle: Array
     thickness_rows: csr_matrix
     thickness_weight: Array
     dihedral: csr_matrix
@@ -82,18 +86,10 @@ class Couplings:
         """d_back − d_front + t (n − n₀): along the nominal normal (pairs,), and what is left in the skin (pairs, 3)."""
         if not len(self.pairs.thickness):
             return np.zeros(0), np.zeros((0, 3))
-        turned = self._pair_normal(control_points) - self.pair_normal
+        turned = _sheet_normals(self.pairs, control_points) - self.pair_normal
         misfit = self.thickness_rows @ control_points + self.pairs.thickness[:, None] * turned
         across = np.einsum("nx,nx->n", misfit, self.pair_normal)
         return across, misfit - across[:, None] * self.pair_normal
-
-    @property
-    def pair_normal(self) -> Array:
-        """Nominal normal of the sheets at the pairs, (pairs, 3)."""
-        return _sheet_normals(self.pairs, np.zeros((self.shear.shape[0], 3)))
-
-    def _pair_normal(self, control_points: Array) -> Array:
-        return _sheet_normals(self.pairs, control_points)
 
     def dihedral_load(self, control_points: Array) -> Array:
         """Gradient that brings every edge back to its nominal angle, (controls, 3)."""
@@ -102,12 +98,12 @@ class Couplings:
 
     def angle_change(self, control_points: Array) -> Array:
         """Change of the angles of the edges from the nominal ones, (samples,) in rad."""
-        change = _angle(self.edges, control_points) - _angle(self.edges, np.zeros_like(control_points))
+        change = _angle(self.edges, control_points) - self.angle
         return np.mod(change + np.pi, 2 * np.pi) - np.pi
 
     def measured_thickness(self, control_points: Array) -> Array:
         """Current thickness at the pairs in mm."""
-        normal = self._pair_normal(control_points)
+        normal = _sheet_normals(self.pairs, control_points)
         gap = (self.pairs.front.nominal[0] + self.pairs.front.displacement(control_points)
                - self.pairs.back.nominal[0] - self.pairs.back.displacement(control_points))
         return np.einsum("nx,nx->n", gap, normal)
@@ -130,10 +126,12 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
               + diags(_anchor(part, lattices, settings, information)))
     dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
     shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
-    across = _along(thickness_rows, _sheet_normals(pairs, np.zeros((count, 3))))
+    still = np.zeros((count, 3))
+    normal = _sheet_normals(pairs, still)
+    across = _along(thickness_rows, normal)
     thickness = (across.T @ diags(thickness_weight) @ across).tocsr()
-    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, thickness_rows, thickness_weight, dihedral.tocsr(),
-                     dihedral_rows, dihedral_weight)
+    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, normal, _angle(edges, still), thickness_rows,
+                     thickness_weight, dihedral.tocsr(), dihedral_rows, dihedral_weight)
 
 
 def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
@@ -182,9 +180,10 @@ def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
             length.append(step)
             direction.append(along / np.maximum(step, 1e-12)[:, None])
     none = [np.zeros((0, 2))]
-    first, second = (sample(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[k]]),
-                            np.concatenate(none + uv[k])) for k in (0, 1))
-    return EdgeSamples(first, second, np.concatenate([np.zeros(0, dtype=np.intp), *edge]),
+    both = sample(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[0], *face[1]]),
+                  np.concatenate(none + uv[0] + uv[1]))
+    first, second = np.arange(len(both)).reshape(2, -1)
+    return EdgeSamples(both.take(first), both.take(second), np.concatenate([np.zeros(0, dtype=np.intp), *edge]),
                        np.concatenate([np.zeros(0), *length]), np.concatenate([np.zeros((0, 3)), *direction]))
 
 

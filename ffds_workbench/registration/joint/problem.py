@@ -23,7 +23,7 @@ from .statistics import ScanStatistics, scan_statistics
 from .stiffness import GAUSS_PLACES, Stiffness, make_stiffness
 from .system import Pattern
 
-_SAMPLE = 20000
+_SAMPLE = 15000
 _POINTS_PER_CELL = 8.0
 _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50

@@ -62,9 +62,11 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
             of_face[np.unique(pairs[keep][:, :2].astype(int))] = thickness
     table = np.concatenate([np.zeros((0, 9)), *kept])
     table = table[table[:, 0] < table[:, 1]]
-    front = sample(faces, lattices, table[:, 0].astype(np.intp), table[:, 2:4])
-    back = sample(faces, lattices, table[:, 1].astype(np.intp), table[:, 4:6])
-    return SheetPairs(front, back, table[:, 6], table[:, 7], table[:, 8], tuple(thickness_of_solid), of_face)
+    both = sample(faces, lattices, table[:, :2].T.astype(np.intp).ravel(),
+                  np.concatenate([table[:, 2:4], table[:, 4:6]]))
+    front, back = np.arange(len(both)).reshape(2, -1)
+    return SheetPairs(both.take(front), both.take(back), table[:, 6], table[:, 7], table[:, 8],
+                      tuple(thickness_of_solid), of_face)
 
 
 def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, area: Array) -> Array:

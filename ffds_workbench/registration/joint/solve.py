@@ -31,6 +31,8 @@ from .trust import judge
 from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
+_SETTLED = 0.05
+"""A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
 _HARDLY_MOVES = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
 
@@ -60,7 +62,8 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     steps = stages(settings.schedule, state.reach)
     for number, stage in enumerate(steps):
         report("joint solve", number / len(steps))
-        state = run_stage(problem, stage, state)
+        if stage.soft or state.last_step > _SETTLED:
+            state = run_stage(problem, stage, state)
     finer = finer_faces(problem, state) if settings.refine else {}
     if finer:
         report("finer lattice", 1.0)
@@ -77,7 +80,8 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
     state = replace(state, nearest=None)
     if stage.soft:
-        near = near_edges(problem.scan, problem.couplings.edges, problem.sides, state.control_points)
+        near = state.near if len(state.near) else near_edges(problem.scan, problem.couplings.edges, problem.sides,
+                                                             state.control_points)
         state = replace(state, near=near, factor=None if stage.all_points else state.factor)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))

@@ -62,17 +62,12 @@ class Stiffness:
         rows = self.hessian.reshape(len(self.hessian), -1, 16)
         return np.matmul(rows.swapaxes(1, 2), target.reshape(len(rows), -1, 3))
 
-    def strain(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> tuple[Array, Array]:
-        """Green strain of the mid surface and its derivative.
+    def strain(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
+        """Green strain of the mid surface: (spans, k, 3).
 
         The mid surface lies half a thickness inside a skin: its metric is g + t b + t²/4 c with the three fundamental
         forms of the skin (do Carmo, Differential Geometry, 3-5, parallel surfaces). ``normal`` (spans, k, 3) is the
         current one, ``thickness`` (spans,) is zero where there is no sheet.
-
-        Returns
-        -------
-        strain : (spans, k, 3)
-        rows : (spans, k, 3, 16, 3) its derivative by the control points
         """
         gathered = control_points[lattices.controls][:, None]
         tangent = self.tangent + np.matmul(self.slope, gathered)
@@ -82,12 +77,18 @@ class Stiffness:
         first = (metric - np.array([1.0, 0.0, 1.0])) * _NORM
         form = np.einsum("skpx,skx->skp", second, normal)
         change = _third_form(form, metric) - _third_form(self.curvature, np.broadcast_to([1.0, 0.0, 1.0], metric.shape))
-        strain = 0.5 * (first + t * (form - self.curvature) + 0.25 * t**2 * change)
+        return np.asarray(0.5 * (first + t * (form - self.curvature) + 0.25 * t**2 * change))
+
+    def strain_rows(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
+        """Derivative of `strain` by the control points: (spans, k, 3, 16, 3)."""
+        tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])
         rows = np.stack([0.5 * _NORM[p] * (tangent[:, :, i, None, :] * self.slope[:, :, j, :, None]
                                            + tangent[:, :, j, None, :] * self.slope[:, :, i, :, None])
                          for p, (i, j) in enumerate(_PAIRS)], axis=2)
-        rows += 0.5 * t[..., None, None] * self.hessian[..., None] * normal[:, :, None, None, :]
-        return strain, rows
+        sheet = np.flatnonzero(thickness)
+        rows[sheet] += (0.5 * thickness[sheet, None, None, None, None] * self.hessian[sheet, ..., None]
+                        * normal[sheet, :, None, None, :])
+        return rows
 
 
 def _third_form(form: Array, metric: Array) -> Array:

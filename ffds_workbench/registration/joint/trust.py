@@ -57,7 +57,7 @@ def strain_at(problem: Problem, control_points: Array) -> Array:
     stiffness = problem.stiffness
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    return stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)[0]
+    return stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
 
 
 def observed_strain(problem: Problem, state: State) -> float:
