@@ -186,9 +186,10 @@ class _Geometry:
         return edges, vertices
 
     def _later(self, edge: int, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:
-        for face, used in self._uses[edge]:
-            trace = Trace(self._faces[face].surface, used.pcurves[0])
-            later = late(trace, curve, gap, vertex) if len(used.pcurves) == 1 and not trace.at_seam(0.0) else None
+        single = [(face, Trace(self._faces[face].surface, used.pcurves[0])) for face, used in self._uses[edge]
+                  if len(used.pcurves) == 1]
+        for face, trace in sorted(single, key=lambda use: use[1].at_seam(0.0)):
+            later = late(trace, curve, gap, vertex)
             if later is not None:
                 self._late[face, edge] = later.pcurve
                 return later

@@ -49,6 +49,8 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     """
     settings = settings or RobustSettings()
     raster = make_raster(face)
+    # What lies farther than the face is long cannot be told from its surroundings.
+    settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
     points = face_points(raster, scan, settings.reach, margin, settings.sample)
     _check_points(face, points, settings)

@@ -207,6 +207,8 @@ def test_a_warp_of_the_whole_keeps_everything_but_the_points(name, tmp_path):
     nominal.exportStep(str(tmp_path / "nominal.step"))
     back = [Part.read(str(tmp_path / f"{which}.step")) for which in ("result", "nominal")]
     assert back[0].isValid()
+    if name == "fused" and tuple(map(int, Part.OCC_VERSION.split(".")[:2])) >= (7, 8):
+        pytest.xfail("OCCT 7.8 drops the seam of a part of a sphere that is a B-spline from a STEP file")
     assert counts(back[0]) == counts(back[1])
 
 
