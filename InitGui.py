@@ -2,20 +2,27 @@
 """FreeCAD's GUI runs this at every start: it makes the workbench known and loads nothing else."""
 import FreeCADGui as Gui
 
+from ffds_workbench import RESOURCES
 from ffds_workbench.objects import views
 
 views.dress_with("ffds_workbench.gui.view_providers")
+Gui.addLanguagePath(str(RESOURCES / "translations"))
+Gui.updateLocale()
+Gui.addIconPath(str(RESOURCES / "icons"))
+Gui.addPreferencePage(str(RESOURCES / "ui" / "preferences.ui"), "FFDS")
 
 
 class FFDSWorkbench(Gui.Workbench):
     """The workbench. Names of this file cannot be seen from the methods, hence the imports inside them."""
 
     def __init__(self):
+        import FreeCAD
+
         from ffds_workbench import RESOURCES
 
         self.__class__.Icon = str(RESOURCES / "icons" / "ffds.svg")
         self.__class__.MenuText = "FFDS"
-        self.__class__.ToolTip = "Deform a CAD model to a scan; its topology stays"
+        self.__class__.ToolTip = FreeCAD.Qt.translate("Workbench", "Deform a CAD model to a scan; its topology stays")
 
     def Initialize(self):  # noqa: N802
         """Called once, when the workbench is first opened."""

@@ -20,7 +20,9 @@ from .face_on_scan import corner_values, corners, surface_grid
 from .legend import Legend
 from .overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from .panel import choice, length, named, wrapped
+from .preferences import preferences
 from .qt import QtWidgets
+from .translating import tr
 
 Array = NDArray[np.float64]
 
@@ -28,14 +30,15 @@ Array = NDArray[np.float64]
 def open_panel(part: Any, scan: Any) -> None:
     """Measure, and show the panel (main thread); refusals are said."""
     with running.telling():
-        states = [("As built", part), ("Nominal", part.Source)] if is_as_built(part) else [("Part", part)]
+        as_built = is_as_built(part)
+        states = [(tr("As built"), part), (tr("Nominal"), part.Source)] if as_built else [(tr("Part"), part)]
         points = scan_points(scan)
         models = [(name, files.from_object(item)) for name, item in states]
 
         def measure(progress: Any) -> list[Any]:
             return [(name, api.deviation(model, points, progress)) for name, model in models]
 
-        found = running.in_background("Measuring the deviation", measure)
+        found = running.in_background(tr("Measuring the deviation"), measure)
         Gui.Control.showDialog(DeviationPanel(part, scan, found))
 
 
@@ -46,19 +49,22 @@ class DeviationPanel:
         self._part, self._scan, self._found = part, scan, dict(found)
         self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
         self.form = QtWidgets.QWidget()
-        self.form.setWindowTitle("Deviation")
-        self._state = choice("FfdsState", [(name, name) for name, _ in found], "Before or after the deformation")
-        self._on = choice("FfdsOn", [("the scan", "scan"), ("the part", "part")], "What carries the colours")
+        self.form.setWindowTitle(tr("Deviation"))
+        self._state = choice("FfdsState", [(name, name) for name, _ in found],
+                             tr("Before or after the deformation"))
+        self._on = choice("FfdsOn", [(tr("the scan"), "scan"), (tr("the part"), "part")],
+                          tr("What carries the colours"))
         limit = max(good_limit(_deviations(item)) for _, item in found)
-        self._limit = length("FfdsLimit", limit, 1e4, "The colour scale ends here, on both sides")
-        self._tolerance = length("FfdsTolerance", 0.0, 1e4, "Deviations up to this are shown in one green; 0: none")
+        self._limit = length("FfdsLimit", limit, 1e4, tr("The colour scale ends here, on both sides"))
+        self._tolerance = length("FfdsTolerance", preferences().tolerance, 1e4,
+                                 tr("Deviations up to this are shown in one green; 0: none"))
         self._tolerance.setSingleStep(limit / 20)
         self._legend = named(Legend(), "FfdsLegend")
         self._figures, self._cursor = wrapped("FfdsFigures"), wrapped("FfdsCursor")
         column = QtWidgets.QVBoxLayout(self.form)
         rows = QtWidgets.QFormLayout()
-        for label, widget in (("State", self._state), ("Colours on", self._on), ("Range ±", self._limit),
-                              ("Tolerance ±", self._tolerance)):
+        for label, widget in ((tr("State"), self._state), (tr("Colours on"), self._on), (tr("Range ±"), self._limit),
+                              (tr("Tolerance ±"), self._tolerance)):
             rows.addRow(label, widget)
         column.addLayout(rows)
         for widget in (self._figures, self._legend, self._cursor):
@@ -88,7 +94,7 @@ class DeviationPanel:
         self._overlay.cover(self._scan, *[self._part] if self._on.currentData() == "part" else [])
         self._legend.show_deviations(values, limit, tolerance)
         self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
-        self._cursor.setText("Point at the part to read the deviation there.")
+        self._cursor.setText(tr("Point at the part to read the deviation there."))
 
     def _coloured_faces(self, item: api.Deviation) -> list[tuple[Array, Array, Array]]:
         name = self._state.currentData()
@@ -128,8 +134,10 @@ def _deviations(item: api.Deviation) -> Array:
 
 
 def _figures_text(block: dict[str, float], values: Array, tolerance: float) -> str:
-    text = (f"{len(values)} points: mean {block['mean']:.3f} mm, 95 % below {block['p95']:.3f} mm, largest "
-            f"{block['max']:.3f} mm, signed mean {block['signed_mean']:+.3f} mm")
+    text = tr("{count} points: mean {mean} mm, 95 % below {p95} mm, largest {max} mm, signed mean {signed} mm").format(
+        count=len(values), signed=f"{block['signed_mean']:+.3f}",
+        **{name: f"{block[name]:.3f}" for name in ("mean", "p95", "max")})
     if tolerance > 0:
-        text += f"; {100 * np.mean(np.abs(values) <= tolerance):.1f} % within the tolerance"
+        share = f"{100 * np.mean(np.abs(values) <= tolerance):.1f}"
+        text += "; " + tr("{share} % within the tolerance").format(share=share)
     return text

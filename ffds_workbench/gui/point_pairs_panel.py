@@ -14,10 +14,10 @@ from . import running
 from .overlay import Overlay, points_node
 from .panel import ProgressBar, named, wrapped
 from .qt import QtCore, QtWidgets
+from .translating import tr
 
 _PAIRS = 3
 _COLOURS = (0xE6194BFF, 0x2F7FC8FF, 0xF0A500FF)
-_NAMES = ("red", "blue", "yellow")
 _SIZE = 11.0
 
 Point = tuple[float, float, float]
@@ -26,7 +26,7 @@ Point = tuple[float, float, float]
 def open_panel(part: Any, scan: Any) -> None:
     """Open the panel on a part and a scan."""
     if Gui.Control.activeDialog():
-        running.tell("Another task is open: finish or close it first.")
+        running.tell(tr("Another task is open: finish or close it first."))
         return
     with running.telling():
         Gui.Control.showDialog(PointPairsPanel(part, scan))
@@ -41,12 +41,12 @@ class PointPairsPanel:
         self._order: list[str] = []
         self._worker: running.Worker | None = None
         self.form = QtWidgets.QWidget()
-        self.form.setWindowTitle("Align by three points")
+        self.form.setWindowTitle(tr("Align by three points"))
         self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), wrapped("FfdsMessageLabel")
         self._message.setStyleSheet("color: #b3401f")
-        self._back = named(QtWidgets.QPushButton("Take back the last point"), "FfdsBack")
-        self._refine = named(QtWidgets.QCheckBox("Fine alignment from there"), "FfdsRefine",
-                             "Go on by closest points; without it the three pairs alone decide")
+        self._back = named(QtWidgets.QPushButton(tr("Take back the last point")), "FfdsBack")
+        self._refine = named(QtWidgets.QCheckBox(tr("Fine alignment from there")), "FfdsRefine",
+                             tr("Go on by closest points; without it the three pairs alone decide"))
         self._refine.setChecked(True)
         self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._progress.setVisible(False)
@@ -75,9 +75,10 @@ class PointPairsPanel:
         hit = {self._scan.Name: "scan", self._part.Name: "part"}.get(name)
         self._message.setText("")
         if document != self._scan.Document.Name or hit is None:
-            self._message.setText(f"Pick on {self._scan.Label} or on {self._part.Label}.")
+            self._message.setText(tr("Pick on {scan} or on {part}.").format(scan=self._scan.Label,
+                                                                            part=self._part.Label))
         elif place == (0.0, 0.0, 0.0):
-            self._message.setText("Pick in the 3D view, not in the tree.")
+            self._message.setText(tr("Pick in the 3D view, not in the tree."))
         elif len(self._picked[hit]) < _PAIRS:
             self._picked[hit].append(place)
             self._order.append(hit)
@@ -100,10 +101,13 @@ class PointPairsPanel:
         counts = {kind: len(points) for kind, points in self._picked.items()}
         target = next((kind for kind in ("scan", "part") if counts[kind] < _PAIRS), None)
         label = {"scan": self._scan.Label, "part": self._part.Label}
-        self._hint.setText("All points are picked: press OK." if target is None else
-                           f"Pick the {_NAMES[counts[target]]} point on <b>{label[target]}</b>.")
-        self._state.setText(f"{label['scan']}: {counts['scan']} of {_PAIRS}, {label['part']}: {counts['part']} of "
-                            f"{_PAIRS} points. Pair by pair in the same order: {', '.join(_NAMES)}.")
+        self._hint.setText(tr("All points are picked: press OK.") if target is None else
+                           tr("Pick the {colour} point on <b>{name}</b>.").format(
+                               colour=_names()[counts[target]], name=label[target]))
+        self._state.setText(tr("{scan}: {on_scan} of {all}, {part}: {on_part} of {all} points. Pair by pair in the "
+                               "same order: {colours}.").format(
+            scan=label["scan"], on_scan=counts["scan"], part=label["part"], on_part=counts["part"], all=_PAIRS,
+            colours=", ".join(_names())))
         self._back.setEnabled(bool(self._order))
         nodes = [_in_front(points_node(np.array(points), np.array(_COLOURS[:len(points)], dtype=np.uint32), _SIZE))
                  for points in self._picked.values() if points]
@@ -111,7 +115,7 @@ class PointPairsPanel:
 
     def _arguments(self) -> tuple[list[Point], list[Point], bool]:
         if any(len(points) < _PAIRS for points in self._picked.values()):
-            raise InputError("Pick three points on the scan and three on the part first.")
+            raise InputError(tr("Pick three points on the scan and three on the part first."))
         return self._picked["scan"], self._picked["part"], self._refine.isChecked()
 
     def accept(self) -> bool:
@@ -143,7 +147,7 @@ class PointPairsPanel:
         self._show()
         if not isinstance(failure, FfdsError):
             raise failure
-        self._message.setText(f"{failure} Or leave out the fine alignment.")
+        self._message.setText(f"{failure} " + tr("Or leave out the fine alignment."))
 
     def _told(self, text: str) -> None:
         self._hint.setText(text)
@@ -176,6 +180,11 @@ class PointPairsPanel:
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
         return int(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
+
+
+def _names() -> tuple[str, ...]:
+    """The colours of the pairs."""
+    return tr("red"), tr("blue"), tr("yellow")
 
 
 def _in_front(node: Any) -> Any:

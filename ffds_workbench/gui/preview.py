@@ -27,6 +27,7 @@ from ..registration.robust import register_robust
 from ..registration.splines import DEGREE, SplineSurface
 from ..report.stopwatch import Progress
 from .face_on_scan import Array, Deviations, FaceOnScan
+from .translating import tr
 from .whole_preview import WholePreview
 
 COARSE = 6000
@@ -108,8 +109,8 @@ class Preview:
         face = self._faces[name]
         index = face.places.index
         if not len(index):
-            raise RefusedError(f"The scan does not lie on {name}: check its unit and its alignment, or choose another "
-                               f"face.")
+            raise RefusedError(tr("The scan does not lie on {name}: check its unit and its alignment, or choose "
+                                  "another face.").format(name=name))
         every = max(1, -(-len(index) // COARSE)) if coarse else 1
         found = _register(face.geometry, self._points[index[::every]], settings, coarse)
         return _patch(face, face.deviations(found.displacement, every).near(), found.displacement, found.coverage, True)

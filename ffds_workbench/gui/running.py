@@ -49,7 +49,7 @@ def name_of(item: Any) -> str:
 
 def call(document: Any, title: str, line: str) -> None:
     """Run a recordable line of Python that calls `ACTIONS`, as one undo step; a failure leaves nothing behind."""
-    document.openTransaction(title)
+    document.openTransaction(tr(title))
     try:
         record(line)
     except BaseException:

@@ -11,6 +11,7 @@ from pivy import coin
 from ..objects.seams import FIGURES, stations_of, wishes_of
 from .colours import NO_DATA, packed_colours
 from .overlay import mesh_node
+from .translating import tr
 
 Array = NDArray[np.float64]
 Colours = NDArray[np.uint32]
@@ -31,14 +32,14 @@ def seam_nodes(item: Any, colour_by: str, legend: bool) -> list[Any]:
     stations = stations_of(item)
     limits = vars(wishes_of(item).limits)
     if colour_by == "Verdict":
-        colours, title, entries = verdict_colours(stations, limits), "Seams", _VERDICTS
+        colours, title, entries = verdict_colours(stations, limits), tr("Seams"), _verdicts()
     else:
         name = colour_by.lower()
         values = stations.get(FIGURES[name], np.full(len(stations["s"]), np.nan))
         limit = max(limits[name], 1e-6)
         colours, title = packed_colours(values, limit), f"{colour_by}, {_UNITS.get(name, 'mm')}"
         steps = np.linspace(-limit, limit, _STEPS)
-        entries = [("no data", NO_DATA), *((f"{step:+.3g}" if abs(step) > 1e-9 else "0", int(colour))
+        entries = [(tr("no data"), NO_DATA), *((f"{step:+.3g}" if abs(step) > 1e-9 else "0", int(colour))
                                            for step, colour in zip(steps, packed_colours(steps, limit), strict=True))]
     bead = _bead(stations, colours, _RADIUS * item.AsBuilt.Shape.BoundBox.DiagonalLength)
     return [bead, _legend(title, entries)] if legend else [bead]
@@ -52,7 +53,8 @@ def verdict_colours(stations: dict[str, Array], limits: dict[str, float]) -> Col
     return np.where(known, np.where(worst > 1.0, FAIL, PASS), NO_DATA).astype(np.uint32)
 
 
-_VERDICTS: list[Entry] = [("nothing to compare", NO_DATA), ("beyond a limit", FAIL), ("within all limits", PASS)]
+def _verdicts() -> list[Entry]:
+    return [(tr("nothing to compare"), NO_DATA), (tr("beyond a limit"), FAIL), (tr("within all limits"), PASS)]
 
 
 def _bead(stations: dict[str, Array], colours: Colours, radius: float) -> Any:

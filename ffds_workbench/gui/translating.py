@@ -12,8 +12,3 @@ TRANSLATIONS = RESOURCES / "translations"
 def tr(text: str) -> str:
     """A text of the panels and dialogs; put values in afterwards, by ``.format``."""
     return FreeCAD.Qt.translate("FFDS", text)
-
-
-def marked(text: str) -> str:
-    """The text itself: it is translated where it is shown."""
-    return text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..running import call, in_background, name_of
+from ..translating import tr
 from .command import Command
 from .find_seams import selected_seams
 
@@ -13,6 +14,7 @@ class AddTrajectory(Command):
     NAME = "FFDS_AddTrajectory"
     MENU = "Add robot trajectory"
     TIP = "Add the selected seams to the document as trajectories for FreeCAD's Robot workbench"
+    HELP = "Adds the selected seams to the document as trajectories for the Robot workbench."
     KEYS = "F, R"
 
     def active(self) -> bool:
@@ -24,5 +26,5 @@ class AddTrajectory(Command):
         from ...objects.seams import job_of
 
         item = selected_seams()
-        in_background("Measuring the seams", job_of(item).run)
+        in_background(tr("Measuring the seams"), job_of(item).run)
         call(item.Document, "Add robot trajectory", f"add_trajectories({name_of(item)})")

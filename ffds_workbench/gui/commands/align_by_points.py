@@ -11,6 +11,8 @@ class AlignByPoints(Command):
     NAME = "FFDS_AlignByPoints"
     MENU = "Align scan by three points…"
     TIP = "Pick three points on the scan and the same three on the part; the alignment goes on from there"
+    HELP = ("Where a scan is not aligned by itself: pick three points on the scan and the same three, in the same "
+            "order, on the part.")
     KEYS = "F, 3"
 
     def active(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..running import call, in_background, name_of, tell
+from ..translating import tr
 from .command import Command, part_and_scan
 
 
@@ -12,6 +13,8 @@ class AlignScan(Command):
     NAME = "FFDS_AlignScan"
     MENU = "Align scan with part"
     TIP = "Move the selected scan onto the selected part, from wherever it lies"
+    HELP = ("Finds the rigid motion that brings the scan onto the part, from wherever it lies, and says how sure "
+            "that is. Select the part and the scan.")
     KEYS = "F, A"
 
     def active(self) -> bool:
@@ -23,8 +26,8 @@ class AlignScan(Command):
         from ...objects import alignment
 
         part, scan = part_and_scan()
-        found = in_background("Aligning the scan", alignment.prepare(part, scan, "global"))
+        found = in_background(tr("Aligning the scan"), alignment.prepare(part, scan, "global"))
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
         if found.alignment.poses and found.alignment.confidence < 0.5:
-            tell(f"The alignment is not sure: {found.alignment.text}. Look at the scan, or undo and align it by three "
-                 f"points.")
+            tell(tr("The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points."
+                    ).format(reason=found.alignment.text))

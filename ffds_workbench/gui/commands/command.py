@@ -15,11 +15,11 @@ from ..selection import Chosen, chosen, scans_of
 class Command:
     """A command; subclasses set the names and define `active` and `run`."""
 
-    NAME = MENU = TIP = KEYS = ""
+    NAME = MENU = TIP = HELP = KEYS = ""
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """What FreeCAD shows of the command."""
-        return {"MenuText": self.MENU, "ToolTip": self.TIP, "Accel": self.KEYS, "WhatsThis": self.NAME,
+        return {"MenuText": self.MENU, "ToolTip": self.TIP, "Accel": self.KEYS, "WhatsThis": self.HELP,
                 "StatusTip": self.TIP, "Pixmap": str(RESOURCES / "icons" / f"{self.NAME}.svg")}
 
     def IsActive(self) -> bool:  # noqa: N802

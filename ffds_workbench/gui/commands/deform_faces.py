@@ -14,6 +14,9 @@ class DeformFaces(Command):
     NAME = "FFDS_DeformFaces"
     MENU = "Deform faces to scan…"
     TIP = "Deform the selected faces to a scan, with a live preview; the faces around them adapt"
+    HELP = ("Select faces of a part and a scan, in any order, before or after opening the panel. The preview "
+            "follows the settings. OK adds an as-built part that follows the nominal part and the scan; its "
+            "topology is that of the nominal part.")
     KEYS = "F, D"
 
     whole = False

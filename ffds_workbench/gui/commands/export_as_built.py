@@ -9,9 +9,10 @@ import FreeCADGui as Gui
 from ..qt import QtWidgets
 from ..running import name_of, record
 from ..selection import chosen
+from ..translating import tr
 from .command import Command, one_part
 
-_FORMATS = "STEP (*.step *.stp);;BREP (*.brep);;FreeCAD document (*.FCStd)"
+_FORMATS = "STEP (*.step *.stp);;BREP (*.brep);;FCStd (*.FCStd)"
 
 
 class ExportAsBuilt(Command):
@@ -20,6 +21,8 @@ class ExportAsBuilt(Command):
     NAME = "FFDS_ExportAsBuilt"
     MENU = "Export as-built part…"
     TIP = "Write the selected part as STEP, BREP or FCStd, with its name and face colours"
+    HELP = ("Writes the selected part with its name and its face colours. The file is written whole or not at "
+            "all.")
     KEYS = "F, E"
 
     def active(self) -> bool:
@@ -30,7 +33,7 @@ class ExportAsBuilt(Command):
         """Ask for a file and write it."""
         part = one_part(chosen())
         path, kind = QtWidgets.QFileDialog.getSaveFileName(
-            Gui.getMainWindow(), "Export as-built part", f"{part.Label.replace(' ', '_')}.step", _FORMATS)
+            Gui.getMainWindow(), tr("Export as-built part"), f"{part.Label.replace(' ', '_')}.step", _FORMATS)
         if not path:
             return
         suffix = "" if Path(path).suffix else {"S": ".step", "B": ".brep", "F": ".FCStd"}[(kind or "S")[0]]

@@ -8,13 +8,17 @@ import FreeCADGui as Gui
 
 from ..qt import QtWidgets
 from ..running import ACTIONS, in_background, name_of
+from ..translating import tr
 from .command import Command
 from .find_seams import selected_seams
 
-_FORMATS = {"KUKA program (*.src)": ".src", "ABB program (*.mod)": ".mod",
-            "Universal Robots program (*.script)": ".script",
-            "Table of stations (*.csv)": ".csv", "FreeCAD document with trajectories (*.FCStd)": ".FCStd",
-            "Report (*.json)": ".json", "Picture of the report (*.png)": ".png"}
+
+def _formats() -> dict[str, str]:
+    """What the file dialog offers, and the suffix it stands for."""
+    return {tr("KUKA program (*.src)"): ".src", tr("ABB program (*.mod)"): ".mod",
+            tr("Universal Robots program (*.script)"): ".script", tr("Table of stations (*.csv)"): ".csv",
+            tr("FreeCAD document with trajectories (*.FCStd)"): ".FCStd", tr("Report (*.json)"): ".json",
+            tr("Picture of the report (*.png)"): ".png"}
 
 
 class ExportProgram(Command):
@@ -23,6 +27,8 @@ class ExportProgram(Command):
     NAME = "FFDS_ExportProgram"
     MENU = "Export robot program…"
     TIP = "Write the selected seams for KUKA, ABB or Universal Robots, or as a table, a report or a picture"
+    HELP = ("Writes the selected seams for KUKA, ABB or Universal Robots, as a table, as a report or as a "
+            "picture.")
     KEYS = "F, P"
 
     def active(self) -> bool:
@@ -35,11 +41,11 @@ class ExportProgram(Command):
 
         item = selected_seams()
         stem = item.Label.replace(" ", "_")
-        path, kind = QtWidgets.QFileDialog.getSaveFileName(Gui.getMainWindow(), "Export robot program", f"{stem}.src",
-                                                           ";;".join(_FORMATS))
+        path, kind = QtWidgets.QFileDialog.getSaveFileName(
+            Gui.getMainWindow(), tr("Export robot program"), f"{stem}.src", ";;".join(_formats()))
         if not path:
             return
-        path += "" if Path(path).suffix else _FORMATS.get(kind, ".src")
-        in_background("Measuring the seams", job_of(item).run)
+        path += "" if Path(path).suffix else _formats().get(kind, ".src")
+        in_background(tr("Measuring the seams"), job_of(item).run)
         Gui.addModule(ACTIONS)
         Gui.doCommand(f"{ACTIONS}.export_program({name_of(item)}, {path!r})")

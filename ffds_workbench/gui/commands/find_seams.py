@@ -7,6 +7,7 @@ import FreeCADGui as Gui
 from ..qt import QtWidgets
 from ..running import call, in_background, name_of, tell
 from ..selection import chosen
+from ..translating import tr
 from .command import Command, one_part
 
 _TOLERANCE = 0.5
@@ -18,6 +19,8 @@ class FindSeams(Command):
     NAME = "FFDS_FindSeams"
     MENU = "Find weld seams…"
     TIP = "Weld seams along the selected edges, or wherever the parts of the selected object lie on each other"
+    HELP = ("Follows the selected edges, or finds the joints between the parts of the selected object. The seams "
+            "follow the part; limits, torch angles, tool and base are in their properties.")
     KEYS = "F, M"
 
     def active(self) -> bool:
@@ -33,11 +36,12 @@ class FindSeams(Command):
         part, edges, tolerance = one_part(chosen()), selected_edges(), None
         if not edges:
             tolerance, accepted = QtWidgets.QInputDialog.getDouble(
-                Gui.getMainWindow(), "Find weld seams", "No edge is selected, so the joints are found by themselves.\n"
-                "Parts touch where they are nearer to each other than (mm):", _TOLERANCE, 0.001, 50.0, 3)
+                Gui.getMainWindow(), tr("Find weld seams"), tr(
+                    "No edge is selected, so the joints are found by themselves.\n"
+                    "Parts touch where they are nearer to each other than (mm):"), _TOLERANCE, 0.001, 50.0, 3)
             if not accepted:
                 return
-        plan = in_background("Finding the seams", prepare(part, SeamWishes(edges, tolerance)).run)
+        plan = in_background(tr("Finding the seams"), prepare(part, SeamWishes(edges, tolerance)).run)
         which = f"edges={list(edges)}" if edges else f"tolerance={tolerance:g}"
         call(part.Document, "Find weld seams", f"make_seams({name_of(part)}, {which})")
         if plan.notes:

@@ -26,6 +26,9 @@ class ImportScan(Command):
     NAME = "FFDS_ImportScan"
     MENU = "Import scan…"
     TIP = "Import a scan as a point cloud: PLY, PCD, XYZ, ASC, TXT, CSV, PTS, E57 or STL; several files are fused"
+    HELP = ("Reads PLY, PCD, XYZ, ASC, TXT, CSV, PTS, E57 and STL files into a point cloud. Several files of one "
+            "part become one scan. Where the size of the scan does not suit the part, the unit is asked for. With "
+            "a scan selected, its points can be replaced, and what was made from it follows.")
     KEYS = "F, I"
 
     def active(self) -> bool:

@@ -15,6 +15,7 @@ class LoadExample(Command):
     NAME = "FFDS_LoadExample"
     MENU = "Load the example"
     TIP = "Open a sheet-metal bracket and a scan of it as it came out, to try everything on"
+    HELP = "Opens a sheet-metal bracket and a scan of it as it came out of the press, to try everything on."
     KEYS = "F, X"
 
     def active(self) -> bool:

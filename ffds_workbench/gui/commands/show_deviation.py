@@ -11,6 +11,8 @@ class ShowDeviation(Command):
     NAME = "FFDS_ShowDeviation"
     MENU = "Show deviation"
     TIP = "Colour the scan or the part by its deviation, before and after, with a legend and a histogram"
+    HELP = ("Colours the scan or the part by the distance between them, nominal and as built. The panel has the "
+            "range, the tolerance, the histogram and the value under the cursor.")
     KEYS = "F, V"
 
     def active(self) -> bool:

@@ -15,6 +15,8 @@ class ShowLattice(Command):
     NAME = "FFDS_ShowLattice"
     MENU = "Show control lattice"
     TIP = "Draw the control lattices of the selected as-built part, before and after, or hide them"
+    HELP = ("Draws the control lattice of every deformed face of the selected as-built part, before (grey) and "
+            "after (orange).")
     KEYS = "F, L"
 
     def active(self) -> bool:

@@ -10,6 +10,7 @@ from ..panel import choice, length, named, spin
 from ..qt import QtWidgets, execute
 from ..running import call, name_of
 from ..selection import chosen
+from ..translating import tr
 from .command import Command, one_part
 
 
@@ -19,6 +20,8 @@ class SimulateScan(Command):
     NAME = "FFDS_SimulateScan"
     MENU = "Simulate a scan…"
     TIP = "Scan the selected part with a virtual sensor: from the side that is seen now, or from all around"
+    HELP = ("Scans the selected part with a virtual sensor: points with noise of the side that is seen now, or of "
+            "all sides.")
     KEYS = "F, S"
 
     def active(self) -> bool:
@@ -40,15 +43,16 @@ class SensorDialog(QtWidgets.QDialog):
     def __init__(self, diagonal: float) -> None:
         super().__init__(Gui.getMainWindow())
         self.setObjectName("FfdsSensor")
-        self.setWindowTitle("Simulate a scan")
-        self._side = choice("FfdsSide", [("The side seen now", "view"), ("All around", "all")],
-                            "Where the sensor stands")
-        self._spacing = length("FfdsSpacing", max(0.1, round(diagonal / 300, 1)), 1000.0, "Mean distance of the points")
-        self._noise = length("FfdsNoise", 0.05, 100.0, "Standard deviation along the line of sight")
-        self._seed = spin("FfdsSeed", 0, 0, 999999, "The same seed gives the same scan")
+        self.setWindowTitle(tr("Simulate a scan"))
+        self._side = choice("FfdsSide", [(tr("The side seen now"), "view"), (tr("All around"), "all")],
+                            tr("Where the sensor stands"))
+        self._spacing = length("FfdsSpacing", max(0.1, round(diagonal / 300, 1)), 1000.0,
+                               tr("Mean distance of the points"))
+        self._noise = length("FfdsNoise", 0.05, 100.0, tr("Standard deviation along the line of sight"))
+        self._seed = spin("FfdsSeed", 0, 0, 999999, tr("The same seed gives the same scan"))
         form = QtWidgets.QFormLayout(self)
-        for label, widget in (("Sensor sees", self._side), ("Spacing", self._spacing), ("Noise", self._noise),
-                              ("Seed", self._seed)):
+        for label, widget in ((tr("Sensor sees"), self._side), (tr("Spacing"), self._spacing),
+                              (tr("Noise"), self._noise), (tr("Seed"), self._seed)):
             form.addRow(label, widget)
         buttons = named(QtWidgets.QDialogButtonBox(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel),
                         "FfdsSensorButtons")
