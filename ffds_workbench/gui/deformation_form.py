@@ -241,8 +241,8 @@ class DeformationForm(QtWidgets.QWidget):
         self.say(sentence)
         if figures is None:
             return
-        rows = "".join(f"<tr><td>{name}</td><td align='right'>&nbsp; {mean:.3f} mm</td>"
-                       f"<td align='right'>&nbsp; {p95:.3f} mm</td></tr>"
+        rows = "".join(f"<tr><td>{name}</td><td align='right'>&nbsp; {mean:.3f}&nbsp;mm</td>"
+                       f"<td align='right'>&nbsp; {p95:.3f}&nbsp;mm</td></tr>"
                        for name, mean, p95 in ((tr("before"), *figures[:2]), (tr("after"), *figures[2:4])))
         self._figures.setText(
             f"<table><tr><td>{tr('Deviation')}</td><td align='right'>{tr('mean')}</td><td align='right'>95 %</td></tr>"

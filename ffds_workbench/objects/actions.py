@@ -18,12 +18,13 @@ from . import alignment, scans, views
 from .as_built import AsBuilt, apply_settings, is_as_built, settings_of
 from .job import Job, Settings, make_job
 from .manual_alignment import align_by_points
+from .repointing import repoint
 from .seams import add_trajectories, export_program, make_seams
 from .sources import read_source, standing_for
 
 __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
            "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "replace_scan",
-           "simulate_scan"]
+           "repoint", "simulate_scan"]
 
 
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:

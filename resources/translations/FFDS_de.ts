@@ -474,6 +474,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Bereich ±</translation>
     </message>
     <message>
+      <source>Re-point references</source>
+      <translation>Verweise umhängen</translation>
+    </message>
+    <message>
       <source>Reading the scan</source>
       <translation>Der Scan wird gelesen</translation>
     </message>
@@ -706,6 +710,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{count} Punkte: Mittel {mean} mm, 95 % unter {p95} mm, größte {max} mm, Mittel mit Vorzeichen {signed} mm</translation>
     </message>
     <message>
+      <source>{names} cannot be computed on {part} and still refer to {source}.</source>
+      <translation>{names} lassen sich an {part} nicht berechnen und verweisen weiter auf {source}.</translation>
+    </message>
+    <message>
       <source>{name} is neither a face nor a point cloud: pick faces of a part, and a scan.</source>
       <translation>{name} ist weder eine Fläche noch eine Punktwolke: Wählen Sie Flächen eines Teils und einen Scan.</translation>
     </message>
@@ -878,6 +886,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Opens a sheet-metal bracket and a scan of it as it came out of the press, to try everything on.</source>
       <translation>Öffnet einen Blechwinkel und einen Scan davon, wie er aus der Presse kam, um alles auszuprobieren.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_RepointReferences</name>
+    <message>
+      <source>Let what refers to the nominal part, or to its faces and edges, refer to the selected as-built part</source>
+      <translation>Was auf das Sollteil oder seine Flächen und Kanten verweist, auf das gewählte Ist-Teil verweisen lassen</translation>
+    </message>
+    <message>
+      <source>Re-point references</source>
+      <translation>Verweise umhängen</translation>
+    </message>
+    <message>
+      <source>Sketches on a face, fillets, cuts, drawings, seams: what refers to the nominal part or to its faces, edges and vertices refers to the same ones of the selected as-built part from now on. What cannot be computed on it is left as it was.</source>
+      <translation>Skizzen auf einer Fläche, Verrundungen, Schnitte, Zeichnungen, Nähte: Was auf das Sollteil oder seine Flächen, Kanten und Ecken verweist, verweist fortan auf dieselben des gewählten Ist-Teils. Was sich daran nicht berechnen lässt, bleibt, wie es war.</translation>
     </message>
   </context>
   <context>

@@ -14,15 +14,17 @@ from .export_program import ExportProgram
 from .find_seams import FindSeams
 from .import_scan import ImportScan
 from .load_example import LoadExample
+from .repoint_references import RepointReferences
 from .show_deviation import ShowDeviation
 from .show_lattice import ShowLattice
 from .simulate_scan import SimulateScan
 
 COMMANDS = (ImportScan, AlignScan, AlignByPoints, DeformFaces, DeformWorkpiece, ShowDeviation, ShowLattice,
-            SimulateScan, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory, LoadExample)
+            SimulateScan, RepointReferences, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory, LoadExample)
 TOOLBAR = [command.NAME for command in COMMANDS]
-CONTEXT = [command.NAME for command in (DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowDeviation,
-                                        ShowLattice, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
+CONTEXT = [command.NAME for command in (
+    DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
+    ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
 
 
 def register() -> None:
