@@ -24,7 +24,9 @@ from .registering import Result
 
 def write(result: Result, out: str | Path, report: str | Path | None = None, picture: str | Path | None = None,
           inputs: Sequence[str | Path] = ()) -> None:
-    """Write an as-built model (.step, .brep or .FCStd), and beside it its report and picture: all of them or none.
+    """Write an as-built model (.step, .brep or .FCStd), and after it its report and picture: both of these or none.
+
+    The report waits for the check for Boolean operations, the model does not.
 
     Raises
     ------
@@ -32,16 +34,17 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     RefusedError : the disk is full, or the file would not hold the same model
     """
     files.check_output(Path(out))
-    panels = [drawing.Panel("Nominal", _all(result.before), _edges(result.nominal.shape)),
-              drawing.Panel("As built", _all(result.after), _edges(result.shape))] if picture else []
     outputs = destinations((out, report, picture), inputs)
+    with replacing(outputs.pop(0)) as temporary:
+        files.write(result.model, temporary[0])
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
-        files.write(result.model, target[0])
+        if picture is not None:
+            panels = [drawing.Panel("Nominal", _all(result.before), _edges(result.nominal.shape)),
+                      drawing.Panel("As built", _all(result.after), _edges(result.shape))]
+            _draw(target[2], result.nominal, result.scan, result.before, panels)
         if report is not None:
             record.write(result.report, target[1])
-        if picture is not None:
-            _draw(target[2], result.nominal, result.scan, result.before, panels)
 
 
 def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,

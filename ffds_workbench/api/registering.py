@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -33,9 +34,9 @@ from .tuning import Tuning
 METHODS = ("robust", "ffds", "ffd-hsu")
 ISOMETRY = ("auto", "on", "off")
 
-BOOLEAN_CHECK_SECONDS = 4.0
+BOOLEAN_CHECK_SECONDS = 10.0
 """How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
-without it: it can take minutes."""
+without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
 SURFACE_TOLERANCE = 1e-5
 """Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
 
@@ -52,8 +53,9 @@ class Result:
     registrations : one per face that the scan deformed
     joint : the registration of the whole part, where all faces were registered together
     before, after : deviations of the same scan points from the nominal and from the as-built faces
-    certificate : topology before and after
-    report : the JSON report as a dictionary
+    topology : the certificate before the check for Boolean operations has ended
+    checks : its errors, nominal and as-built, when it has
+    figures : the JSON report but for the topology
     """
 
     model: Model
@@ -62,9 +64,22 @@ class Result:
     registrations: tuple[FaceRegistration | JointFace, ...]
     before: tuple[FaceDeviation, ...]
     after: tuple[FaceDeviation, ...]
-    certificate: Certificate
+    topology: Certificate
+    checks: Future[tuple[int | None, ...]]
     joint: JointRegistration | None
-    report: dict[str, Any]
+    figures: dict[str, Any]
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """Topology before and after; waits for the check for Boolean operations."""
+        before, after = self.checks.result()
+        return Certificate(replace(self.topology.before, boolean_check=before),
+                           replace(self.topology.after, boolean_check=after))
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """The JSON report as a dictionary; waits for the check for Boolean operations."""
+        return self.figures | {"topology": self.certificate.as_dict()}
 
     @property
     def shape(self) -> Part.Shape:
@@ -122,23 +137,17 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
         found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
-    with ThreadPoolExecutor(1) as background:
-        checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
-        with watch.stage("certify", "Checking the topology"):
-            certificate = certify(nominal.shape, shape, None)
-            certificate.enforce()
-        with watch.stage("deviation", "Measuring the deviation"):
-            before, after = compare(part, shape, list(found.faces), cloud.points)
-        with watch.stage("certify", "Waiting for the check for Boolean operations"):
-            certificate = _with_checks(certificate, *checks.result())
-    report = _report(part, cloud, found, before, after, certificate, watch, profile)
+    background = ThreadPoolExecutor(1)
+    checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
+    background.shutdown(wait=False)
+    with watch.stage("certify", "Checking the topology"):
+        certificate = certify(nominal.shape, shape, None)
+        certificate.enforce()
+    with watch.stage("deviation", "Measuring the deviation"):
+        before, after = compare(part, shape, list(found.faces), cloud.points)
+    figures = _figures(part, cloud, found, before, after, certificate, watch, profile)
     return Result(replace(nominal, shape=shape), nominal, cloud, tuple(found.faces.values()), before, after,
-                  certificate, found.joint, report)
-
-
-def _with_checks(certificate: Certificate, before: int | None, after: int | None) -> Certificate:
-    return Certificate(replace(certificate.before, boolean_check=before),
-                       replace(certificate.after, boolean_check=after))
+                  certificate, checks, found.joint, figures)
 
 
 def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],
@@ -166,7 +175,7 @@ def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None
         raise InputError("A sensor profile is for the whole part: it needs method robust without named faces.")
 
 
-def _report(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
+def _figures(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
             after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch,
             sensor: SensorProfile | None) -> dict[str, Any]:
     names = [face.name for face in part.faces]
@@ -181,7 +190,6 @@ def _report(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequ
     return {
         "faces": faces, "edges": edges,
         "deviation_before": record.all_figures(before), "deviation_after": record.all_figures(after),
-        "topology": certificate.as_dict(),
         "scan": record.scan_record(cloud, float(np.median([item.noise for item in found.faces.values()])), sensor),
         "sheet": record.sheet_record(found.joint),
         "timing": watch.times()}

@@ -184,7 +184,7 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
                           options.source_points, options.isometry, progress, sensor=options.sensor)
     if aligned is not None:
-        result.report["alignment"] = aligned.report
+        result.figures["alignment"] = aligned.report
     progress(f"Writing {options.out}")
     api.write(result, options.out, options.report, options.picture, inputs)
     tables = [aligned.table()] if aligned is not None else []
