@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fair timing: the competitors take turns, so that a busy moment of the machine hits all of them."""
+"""Fair timing: the competitors take turns, so that a busy moment of the machine hits all of them.
+
+What counts of a run is the smaller of its elapsed and its processor time: the one is too long where other processes
+want the processor, the other where a library works on several cores.
+"""
 from __future__ import annotations
 
 import time
@@ -12,22 +16,27 @@ Name = TypeVar("Name", bound=Hashable)
 
 
 def median_seconds(jobs: Mapping[Name, Callable[[], Any]], repeats: int = 20) -> dict[Name, float]:
-    """Median wall time of each job in seconds, each run ``repeats`` times in turn after one run to warm up."""
+    """Median time of each job in seconds, each run ``repeats`` times in turn after one run to warm up."""
     return {name: float(np.median(values)) for name, values in _times(jobs, repeats).items()}
 
 
-def best_cpu_seconds(jobs: Mapping[Name, Callable[[], Any]], repeats: int) -> dict[Name, float]:
-    """The same in seconds of processor time, the shortest of each: for long jobs on a machine that has others too."""
-    return {name: min(values) for name, values in _times(jobs, repeats, time.process_time).items()}
+def best_seconds(jobs: Mapping[Name, Callable[[], Any]], repeats: int) -> dict[Name, float]:
+    """The same, the shortest time of each: for long jobs."""
+    return {name: min(values) for name, values in _times(jobs, repeats).items()}
 
 
-def _times(jobs: Mapping[Name, Callable[[], Any]], repeats: int,
-           clock: Callable[[], float] = time.perf_counter) -> dict[Name, list[float]]:
+def timed(job: Callable[[], Any]) -> tuple[Any, float]:
+    """What the job returns, and its time in seconds."""
+    start, start_cpu = time.perf_counter(), time.process_time()
+    result = job()
+    return result, min(time.perf_counter() - start, time.process_time() - start_cpu)
+
+
+def _times(jobs: Mapping[Name, Callable[[], Any]], repeats: int) -> dict[Name, list[float]]:
     times: dict[Name, list[float]] = {name: [] for name in jobs}
     for turn in range(repeats + 1):
         for name, job in jobs.items():
-            start = clock()
-            job()
+            seconds = timed(job)[1]
             if turn:
-                times[name].append(clock() - start)
+                times[name].append(seconds)
     return times

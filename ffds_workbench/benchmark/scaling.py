@@ -21,7 +21,7 @@ from ..registration.ffds import register_ffds
 from ..registration.robust import register_robust
 from ..registration.splines import Array
 from . import page, style
-from .interleaved import best_cpu_seconds, median_seconds
+from .interleaved import best_seconds, median_seconds
 from .page import Picture, Section, Table
 from .sheet import NOISE, nominal, scan
 
@@ -51,7 +51,7 @@ def run(folder: Path, progress: Progress) -> str:
 
 
 def over_points(progress: Progress) -> list[Row]:
-    """Processor seconds and peak memory of the methods on one face over the number of scan points.
+    """Seconds and peak memory of the methods on one face over the number of scan points.
 
     All sizes take turns, and the shortest time counts: a busy moment of the machine must not bend the curve.
     """
@@ -64,7 +64,7 @@ def over_points(progress: Progress) -> list[Row]:
                  f"kdtree {count}": lambda points=points: cKDTree(points),
                  f"read {count}": lambda points=points: points.sum()}
     progress(f"Scaling: {POINTS[0]:,} to {POINTS[-1]:,} points")
-    seconds = best_cpu_seconds(jobs, _ROUNDS)
+    seconds = best_seconds(jobs, _ROUNDS)
     rows = []
     for count in POINTS:
         memory = {f"{name}_mb": peak_megabytes(jobs[f"{name} {count}"]) for name in ("ffds", "robust")}
@@ -150,7 +150,7 @@ def _exponents(rows: Sequence[Row], over: str, names: Any) -> dict[str, float]:
 
 def _sections(folder: Path, data: dict[str, Any]) -> list[Section]:
     further, exponents = data["ns_per_further_point"], data["exponents"]
-    points = Table("One face over the number of scan points: processor time, best of four; MB beyond the input",
+    points = Table("One face over the number of scan points: best of four; MB beyond the input",
                    ("points", *(f"{title}, ms" for title in _NAMES.values()), "ffds, MB", "robust, MB",
                     "ffds ÷ k-d tree", "robust ÷ k-d tree", "robust ÷ reading"),
                    [[f"{row['points']:,}", *(f"{1e3 * row[name]:.3g}" for name in _NAMES), f"{row['ffds_mb']:.0f}",
@@ -193,6 +193,6 @@ def _plot(folder: Path, rows: Sequence[Row]) -> str:
                                ("ffds", style.COLOURS["ffds"], "-"), ("read", style.INK, ":")):
         axes.loglog(count, [1e3 * row[name] for row in rows], line, color=colour, marker="o", markersize=4,
                     label=_NAMES[name])
-    axes.set(xlabel="scan points", ylabel="ms of processor time", title="One face, time over scan points")
+    axes.set(xlabel="scan points", ylabel="ms", title="One face, time over scan points")
     axes.legend()
     return style.save(drawing, folder, "scaling_points")

@@ -21,7 +21,7 @@ from ..registration.neighbours import nearest_neighbours
 from ..registration.robust import register_robust
 from ..registration.splines import Array
 from . import page, sheet
-from .interleaved import best_cpu_seconds, median_seconds
+from .interleaved import best_seconds, median_seconds
 from .page import Section, Table
 
 Progress = Callable[[str], None]
@@ -100,9 +100,9 @@ def _jobs(count: int) -> dict[str, Callable[[], Any]]:
 
 
 def _scaling(sizes: tuple[int, ...]) -> list[dict[str, Any]]:
-    """Seconds of processor time, the shortest of each, and the peak of memory of a process that has one size alone."""
+    """Seconds, the shortest of each, and the peak of memory of a process that has one size alone."""
     jobs = {(count, name): job for count in sizes for name, job in _jobs(count).items()}
-    seconds = best_cpu_seconds(jobs, _ROUNDS)
+    seconds = best_seconds(jobs, _ROUNDS)
     rows = []
     for count in sizes:
         variables = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -135,7 +135,7 @@ def _sections(data: dict[str, Any]) -> list[Section]:
                      f"{row['peak_megabytes']:.0f}"])
     scaling = Table("Time and memory against the size of the scan", head, rows)
     text = ["A build is one `scipy.spatial.cKDTree(scan)` of the same 100,000 points in the same run."]
-    scaling_text = ["Processor time, the shortest of four turns through all sizes: a busy moment of the machine must "
+    scaling_text = ["Times are the shortest of four turns through all sizes: a busy moment of the machine must "
                     "not bend the curve. The peak memory is that of a process with one size alone, its scans included."]
     ratios = Table("Nanoseconds per further point, last step ÷ the one before", ["", "ratio"],
                    [[name, f"{_further(*sizes[-2:], name) / _further(*sizes[-3:-1], name):.2f}"] for name in names]

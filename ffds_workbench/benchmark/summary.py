@@ -13,6 +13,7 @@ from typing import Any
 
 from .. import ROOT
 from ..errors import InputError
+from . import peers
 from .page import Table
 from .paper_methods import TITLES
 
@@ -82,7 +83,7 @@ def _paper(data: dict[str, Any]) -> Table:
 
 def _peers(data: dict[str, Any]) -> Table:
     head = ("method", "clean: mean, mm", "s", "dirty: mean, mm", "s", "largest scan in 60 s", "CAD, topology kept")
-    rows = [[row["title"], *_figures(row["A"]), *_figures(row["D"]), f"{row['largest_in_60_s']:,}",
+    rows = [[row["title"], *_figures(row["A"]), *_figures(row["D"]), peers.size_text(row),
              "yes" if row["cad_topology_kept"] else "no"] for row in data["rows"]]
     return Table("True mean distance on a sheet, 42,087 points, clean and dirty", head, rows)
 
