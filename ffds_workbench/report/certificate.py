@@ -7,6 +7,7 @@ on the spline code that made the result.
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -34,6 +35,11 @@ _AROUND_LARGEST = 17
 
 _CHECKER = """
 import json, sys
+try:
+    import resource
+    resource.setrlimit(resource.RLIMIT_CPU, (int(sys.argv[3]), int(sys.argv[3])))
+except ImportError:
+    pass
 sys.path[:] = json.loads(sys.argv[2])
 import FreeCAD, Part
 shape = Part.Shape()
@@ -219,15 +225,16 @@ def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
 def boolean_checks(shapes: tuple[Part.Shape, ...], limit: float) -> tuple[int | None, ...]:
     """Errors that OCCT's check for Boolean operations reports for each shape; None where it did not finish in time.
 
-    The check can take hours and cannot be interrupted, so each shape is checked in a process of its own.
+    The check can take hours and cannot be interrupted, so each shape is checked in a process of its own, which ends by
+    itself when it has used the time, should nobody be left to end it.
     """
     with tempfile.TemporaryDirectory() as folder:
         processes = []
         for number, shape in enumerate(shapes):
             path = Path(folder) / f"{number}.brep"
             shape.exportBrep(str(path))
-            processes.append(subprocess.Popen([_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path)],
-                                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
+            command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(limit) + 1)]
+            processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
         try:
             deadline = time.monotonic() + limit
             return tuple(_errors(process, deadline) for process in processes)
