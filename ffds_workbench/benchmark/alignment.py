@@ -2,15 +2,17 @@
 """How reliably a scan is brought onto the part: random start poses, deformed and cropped scans, a table, other parts.
 
 A failure is a pose more than 1 mm or 0.5° from the truth; for a deformed part, from the pose that fits the deformed
-truth best in the least squares, each point against its own face.
+truth best: in the least squares over all points of the part, each against where it lies without the deformation.
+Distances from the faces alone would not do: a deformed sheet slides in its own surface at no cost.
 """
 from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import open3d as o3d
@@ -23,8 +25,8 @@ from .. import ROOT
 from ..brep import workpiece
 from ..brep.simulation import target_of as sensor_target_of
 from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
-from ..registration.rigid.fine import gauss_newton
-from ..registration.rigid.motions import angle, apply, motion, shift, step
+from ..registration.rigid.motions import angle, apply, motion
+from ..registration.rigid.smooth import best_fit
 from ..scan.sensor import SensorSettings, View, simulate
 from .families import make_case
 from .page import Section, Table, write
@@ -35,30 +37,68 @@ _FAR, _TURNED = 1.0, np.deg2rad(0.5)
 _POINTS = 360_000
 
 
+_SYMMETRIC = "symmetric by 180°"
+_CONDITIONS = ("rigid", "deformed by 5 mm", "25 % cropped", _SYMMETRIC, "table with 60 % of the points")
+_ALLOWED = {"25 % cropped": 1, "table with 60 % of the points": 1}
+"""Failures of twenty that the project's own line leaves."""
+
+
 @dataclass(frozen=True)
 class Trial:
     """A scan in the part's frame with the pose that an alignment must find, (4, 4)."""
 
-    name: str
+    part: str
+    condition: str
     target: Target
     scan: Array
     truth: Array
 
 
+@dataclass(frozen=True)
+class Try:
+    """One start: how far the pose found lies from the truth, and what it took.
+
+    Attributes
+    ----------
+    part : name
+    verdict : of the alignment
+    offset : (3,) in mm, of the part's centre
+    turn : rad
+    seconds, downsampling : of the alignment, and of open3d's 1.5 mm voxels with normals of the same cloud
+    """
+
+    part: str
+    verdict: str
+    offset: Array
+    turn: float
+    seconds: float
+    downsampling: float
+
+    @property
+    def failed(self) -> bool:
+        return bool(self.verdict == FAILED or np.linalg.norm(self.offset) > _FAR or self.turn > _TURNED)
+
+
 def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
     """Measure; writes alignment.json, .md and .html into the folder and returns the tables as Markdown."""
-    rows, data = [], {}
     trials = list(_trials(progress))
-    for trial in trials:
+    rows, data = [], {}
+    for condition in _CONDITIONS:
+        some = [trial for trial in trials if trial.condition == condition]
         for mode in ("fine", "global"):
-            progress(f"Aligning: {trial.name}, {mode}")
-            row = _repeat(trial, mode, starts)
-            data[f"{trial.name}, {mode}"] = row
-            rows.append([trial.name, mode, f"{row['failures']} of {starts}", f"{row['ambiguous']}",
-                         f"{row['median_mm']:.3f}", f"{row['worst_mm']:.3f}", f"{row['worst_deg']:.2f}",
-                         f"{row['median_s']:.2f}", f"{row['median_in_downsamplings']:.1f}"])
-    poses = Table("Poses from random starts", (
-        "scan", "mode", "failures", "ambiguous", "median mm", "worst mm", "worst °", "median s",
+            tries = []
+            for seed in range(starts):
+                trial = some[seed % len(some)]
+                progress(f"Aligning: {trial.part}, {condition}, {mode}, start {seed + 1} of {starts}")
+                tries.append(_try(trial, mode, seed))
+            row = _summary(tries)
+            data[f"{condition}, {mode}"] = row
+            asked = f"at most {_ALLOWED[condition]}" if condition in _ALLOWED else "0"
+            rows.append([condition, mode, f"{row['failures']} of {starts}", asked, f"{row['ambiguous']}",
+                         f"{row['bias_mm']:.3f}", f"{row['median_mm']:.3f}", f"{row['worst_mm']:.3f}",
+                         f"{row['worst_deg']:.2f}", f"{row['median_s']:.2f}", f"{row['median_in_downsamplings']:.1f}"])
+    poses = Table("Poses from random starts, turn by turn on the parts: " + ", ".join(_FAMILIES), (
+        "scan", "mode", "failures", "asked", "ambiguous", "bias mm", "median mm", "worst mm", "worst °", "median s",
         "in voxel downsamplings"), rows)
     alarms, data["other_parts"] = _other_parts(trials, progress)
     tables = [poses, alarms]
@@ -70,43 +110,23 @@ def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
 
 
 def _trials(progress: Callable[[str], None]) -> list[Trial]:
-    trials = []
+    trials = [_symmetric()]
     for family in _FAMILIES:
         progress(f"Scanning: {family}")
-        for name, amplitude in (("rigid", 0.0), ("deformed by 5 mm", 5.0)):
-            case = make_case(family, "bend", 1, amplitude=amplitude)
-            target = target_of(case.target.faces)
-            scan = _resampled(case.scan.points, np.random.default_rng(1))
-            truth = np.eye(4) if amplitude == 0 else best_pose(target, case.truth)
-            trials.append(Trial(f"{family}, {name}", target, scan, truth))
-            if amplitude == 0:
-                keep = scan[:, 0] + 0.4 * scan[:, 1]
-                trials.append(Trial(f"{family}, 25 % cropped", target, scan[keep < np.quantile(keep, 0.75)], np.eye(4)))
-                up = case.part.views.mean(axis=0)
-                trials.append(Trial(f"{family}, table with 60 %", target, _on_table(scan, target, up), np.eye(4)))
-    return [*trials, _symmetric()]
-
-
-def best_pose(target: Target, truth: object, iterations: int = 8) -> Array:
-    """The pose that fits the truth's visible points best, each against its own face, from where they correspond."""
-    visible = truth.visible.astype(bool)
-    points, nominal, face = truth.warped[visible], truth.nominal[visible], truth.face[visible]
-    middle, goal = points.mean(axis=0), nominal.mean(axis=0)
-    rotation = Rotation.align_vectors(nominal - goal, points - middle)[0].as_matrix()
-    pose = motion(rotation, goal - rotation @ middle)
-    mine = {k: np.flatnonzero(target.samples.face == k) for k in np.unique(face)}
-    trees = {k: cKDTree(target.samples.points[index]) for k, index in mine.items() if len(index)}
-    chosen = np.isin(face, list(trees))
-    points, face = points[chosen], face[chosen]
-    for _ in range(iterations):
-        moved = apply(pose, points)
-        nearest = np.empty(len(points), dtype=np.intp)
-        for k, tree in trees.items():
-            nearest[face == k] = mine[k][tree.query(moved[face == k])[1]]
-        height, normal = target.heights(moved, nearest)
-        pose = step(gauss_newton(moved - target.centre, normal, height, np.ones(len(points)), target.size),
-                    target.centre) @ pose
-    return pose
+        case = make_case(family, "bend", 1, amplitude=0.0)
+        target = target_of(case.target.faces)
+        scan = _resampled(case.scan.points, np.random.default_rng(1))
+        along = scan[:, 0] + 0.4 * scan[:, 1]
+        cropped = scan[along < np.quantile(along, 0.75)]
+        on_table = _on_table(scan, target, case.part.views.mean(axis=0))
+        bent = make_case(family, "bend", 1, amplitude=5.0)
+        trials += [Trial(family, "rigid", target, scan, np.eye(4)),
+                   Trial(family, "25 % cropped", target, cropped, np.eye(4)),
+                   Trial(family, "table with 60 % of the points", target, on_table, np.eye(4)),
+                   Trial(family, "deformed by 5 mm", target_of(bent.target.faces),
+                         _resampled(bent.scan.points, np.random.default_rng(1)),
+                         best_fit(bent.truth.warped, bent.truth.nominal))]
+    return trials
 
 
 def _resampled(scan: Array, rng: np.random.Generator) -> Array:
@@ -137,7 +157,7 @@ def _symmetric() -> Trial:
     views = (View((0.3, 0.2, 1.0)), View((-0.4, -0.5, 0.8)))
     scan = simulate(sensor_target_of(shape), SensorSettings(spacing=0.3, views=views, seed=3)).points
     target = target_of([part.geometry(k) for k in range(len(part.faces))])
-    return Trial("channel, symmetric by 180°", target, _resampled(scan, np.random.default_rng(3)), np.eye(4))
+    return Trial("channel", _SYMMETRIC, target, _resampled(scan, np.random.default_rng(3)), np.eye(4))
 
 
 def random_start(scan: Array, mode: str, rng: np.random.Generator) -> Array:
@@ -151,26 +171,36 @@ def random_start(scan: Array, mode: str, rng: np.random.Generator) -> Array:
     return motion(rotation, middle - rotation @ middle + 50.0 * direction)
 
 
-def _repeat(trial: Trial, mode: str, starts: int) -> dict[str, float]:
-    shifts, turns, seconds, ratios, failures, ambiguous = [], [], [], [], 0, 0
-    for seed in range(starts):
-        moved = random_start(trial.scan, mode, np.random.default_rng(seed))
-        scan = apply(moved, trial.scan)
-        begin = time.perf_counter()
-        found = align(trial.target, scan, mode, seed=seed)
-        seconds.append(time.perf_counter() - begin)
-        ratios.append(seconds[-1] / _downsampling(scan))
-        poses = [pose.T_model_scan @ moved for pose in found.poses]
-        away = [(float(shift(pose, trial.truth, trial.target.centre)), float(angle(pose, trial.truth)))
-                for pose in poses]
-        far, turned = min(away, key=lambda pair: pair[0] / _FAR + pair[1] / _TURNED, default=(np.inf, np.pi))
-        failures += found.verdict == FAILED or far > _FAR or turned > _TURNED
-        ambiguous += found.verdict == AMBIGUOUS
-        shifts.append(far)
-        turns.append(np.rad2deg(turned))
-    return {"failures": int(failures), "ambiguous": int(ambiguous), "median_mm": float(np.median(shifts)),
-            "worst_mm": float(np.max(shifts)), "worst_deg": float(np.max(turns)), "median_s": float(np.median(seconds)),
-            "median_in_downsamplings": float(np.median(ratios))}
+def _try(trial: Trial, mode: str, seed: int) -> Try:
+    """One alignment from a random start; of poses that fit alike the one nearest to the truth."""
+    moved = random_start(trial.scan, mode, np.random.default_rng(seed))
+    scan = apply(moved, trial.scan)
+    downsampling = _downsampling(scan)
+    begin = time.perf_counter()
+    found = align(trial.target, scan, mode, seed=seed)
+    seconds = time.perf_counter() - begin
+    centre = trial.target.centre[None]
+    offset, turn = np.full(3, np.inf), np.pi
+    for candidate in found.poses:
+        pose = candidate.T_model_scan @ moved
+        away, by = (apply(pose, centre) - apply(trial.truth, centre))[0], float(angle(pose, trial.truth))
+        if np.linalg.norm(away) / _FAR + by / _TURNED < np.linalg.norm(offset) / _FAR + turn / _TURNED:
+            offset, turn = away, by
+    return Try(trial.part, found.verdict, offset, turn, seconds, downsampling)
+
+
+def _summary(tries: Sequence[Try]) -> dict[str, Any]:
+    """Figures of one row; the bias is the length of the mean offset of a part, the worst of all parts."""
+    away = np.array([np.linalg.norm(one.offset) for one in tries])
+    parts = sorted({one.part for one in tries})
+    bias = [float(np.linalg.norm(np.mean([one.offset for one in tries if one.part == part], axis=0))) for part in parts]
+    return {"failures": sum(one.failed for one in tries), "ambiguous": sum(one.verdict == AMBIGUOUS for one in tries),
+            "bias_mm": max(bias), "median_mm": float(np.median(away)), "worst_mm": float(away.max()),
+            "worst_deg": float(np.rad2deg(max(one.turn for one in tries))),
+            "median_s": float(np.median([one.seconds for one in tries])),
+            "median_in_downsamplings": float(np.median([one.seconds / one.downsampling for one in tries])),
+            "parts": {part: {"failures": sum(one.failed for one in tries if one.part == part), "bias_mm": of_part}
+                      for part, of_part in zip(parts, bias, strict=True)}}
 
 
 def _downsampling(scan: Array) -> float:
@@ -183,16 +213,18 @@ def _downsampling(scan: Array) -> float:
 
 def _other_parts(trials: list[Trial], progress: Callable[[str], None]) -> tuple[Table, dict[str, str]]:
     """Scans of other parts against each target."""
-    rigid = [trial for trial in trials if trial.name.endswith("rigid")]
+    rigid = [trial for trial in trials if trial.condition == "rigid"]
     rows, data = [], {}
     for number, trial in enumerate(rigid):
         for other in (rigid[number - 1], rigid[number - 2]):
-            progress(f"Aligning: {other.name} on {trial.name}")
+            progress(f"Aligning: {other.part} on {trial.part}")
             moved = random_start(other.scan, "global", np.random.default_rng(number))
             verdict = align(trial.target, apply(moved, other.scan), "global", seed=number).verdict
-            data[f"{other.name} on {trial.name}"] = verdict
-            rows.append([trial.name, other.name, verdict])
-    return Table("Scans of other parts", ("model", "scan", "verdict"), rows), data
+            data[f"{other.part} on {trial.part}"] = verdict
+            rows.append([trial.part, other.part, verdict])
+    right = sum(verdict == FAILED for verdict in data.values())
+    caption = f"Scans of other parts: {right} of {len(rows)} answered failed"
+    return Table(caption, ("model", "scan", "verdict"), rows), data
 
 
 def _real(folder: Path, seeds: int, progress: Callable[[str], None]) -> tuple[Table, dict[str, float]]:

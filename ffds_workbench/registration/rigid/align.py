@@ -46,27 +46,29 @@ class Stage:
 
 _THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
              Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
-_QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 8, 0.1), Stage(400, 0.07, 0.02, 6, 0.015, 2, 0.05))
+_QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 8, 0.1), Stage(400, 0.07, 0.02, 6, 0.015, 1, 0.05))
 _LOCAL = (Stage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), Stage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
 _AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
 """How far, in rad and as a share of the part's size, the surroundings of the best pose are searched once more."""
-_QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL = 12, 0.5, 1000, 20_000
+_QUICK_ROTATIONS, _QUICK_TURN, _QUICK_POINTS, _QUICK_POOL = 12, 0.5, 1000, 16_000
 _CLEARLY_RIGHT, _TURNED = 0.90, 0.15
 """Share of explained points from which a quick answer is taken, and of the normals that may be turned round for it: of
 a sheet matched with its far side up to 0.95 is explained, but more of one matched with the right one."""
+_CERTAIN = 0.95
+"""Certainty from which the surroundings of the best pose are not searched once more."""
 _ROTATIONS = 500
 _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
 """Turns from the present pose that a fine alignment looks at, and the largest in rad."""
-_DEFORMED = 0.004
+_DEFORMED = 0.002
 """Share of the part's size that a fifth of the points must lie off the part for it to count as deformed."""
 _FEWEST = 50
 _MAJOR = 0.1
 """Share of the points from which a piece of surface has a sign of its own in the search."""
-_POLISH_POINTS, _COUNTED = 5_000, 8_000
+_POLISH_POINTS, _COUNTED = 2_500, 5_000
 """Points for the pose of a deformed part, and for the fitness."""
 _FAILS = 0.775
-"""Mean of score and explained share below which a pose is no answer: scans of other parts stay below 0.76, those of the
-part itself reach 0.81 under large noise and 0.87 deformed by 5 % of its size or cropped by a quarter."""
+"""Certainty below which a pose is no answer: scans of other parts stay below 0.75, those of the part itself reach 0.79
+where it has hundreds of small faces, and 0.82 under large noise or deformed by 5 % of its size."""
 _LEAST_COVERAGE = 0.12
 _MARGIN = 0.06
 """Poses whose scores differ by less than this share of what is left unexplained fit alike."""
@@ -136,9 +138,10 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
         best = _nearest(verified, sketch.points.mean(axis=0))
     else:
         verified = _search(target, sketch, table, _starts(target, sketch, mode), _THOROUGH, generator)
-        around = _around(target, sketch, _best(target, sketch, verified, mode).pose)
-        verified += _search(target, sketch, table, around, _LOCAL, generator)
-        best = _best(target, sketch, verified, mode)
+        best = _best(verified, mode)
+        if best.evidence.certainty < _CERTAIN:
+            verified += _search(target, sketch, table, _around(target, sketch, best.pose), _LOCAL, generator)
+            best = _best(verified, mode)
     pose = _polish(target, sketch, best)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
     after = examine(target, sketch, pose, _turn(best, pose), table)
@@ -155,27 +158,33 @@ def _quickly(target: Target, scan: Array, scale: float, generator: np.random.Gen
     rotations = _turns_up_to(_QUICK_TURN, _QUICK_ROTATIONS)
     candidates = _propose(target, sketch, motion(rotations, target.centre - rotations @ centre), _QUICK, generator)
     clear: list[Verified] = []
-    for pose, signs in zip(candidates.poses, candidates.signs, strict=True):
-        pose, normals = _refined(target, sketch, pose, signs)
+    # a sheet is seen from one side, and only its rims tell which
+    for signs in (candidates.signs[0], -candidates.signs[0]):
+        pose, normals = _refined(target, sketch, candidates.poses[0], signs)
         normals, turned = _mended(target, sketch, pose, normals)
         evidence = examine(target.light, sketch, pose, normals, None, rounds=0)
         if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > _FAILS and turned < _TURNED:
             clear.append(Verified(pose, evidence, normals))
     if not clear:
         return None
-    best = _best(target, sketch, clear, "fine")
+    best = _best(clear, "fine")
     pose = _polish(target, sketch, best)
     return _answer(target, sketch, None, Verified(pose, best.evidence, _turn(best, pose)), clear, scale)
 
 
 def _mended(target: Target, sketch: Sketch, pose: Array, normals: Array) -> tuple[Array, float]:
     """Normals turned round one by one where the point then lies on the part, and the share of those."""
-    moved, height = apply(pose, sketch.points), []
-    for side in (normals, -normals):
-        distance, nearest = target.light.nearest(moved, side, 0.05 * target.size)
-        height.append(np.where(np.isfinite(distance), np.abs(target.light.heights(moved, nearest)[0]), np.inf))
-    turned = height[1] + 4.0 * sketch.noise < height[0]
+    moved = apply(pose, sketch.points)
+    off = np.flatnonzero(_heights(target.light, moved, normals) > 4.0 * sketch.noise)
+    turned = np.zeros(len(moved), dtype=bool)
+    turned[off] = _heights(target.light, moved[off], -normals[off]) < 4.0 * sketch.noise
     return np.where(turned[:, None], -normals, normals), float(turned.mean())
+
+
+def _heights(target: Target, points: Array, normals: Array) -> Array:
+    """Distances in mm from the faces that face the same way, infinite where there are none nearby; (n,)."""
+    distance, nearest = target.nearest(points, normals, 0.05 * target.size)
+    return np.where(np.isfinite(distance), np.abs(target.heights(points, nearest)[0]), np.inf)
 
 
 def _turn(found: Verified, pose: Array) -> Array:
@@ -183,16 +192,13 @@ def _turn(found: Verified, pose: Array) -> Array:
     return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
 
 
-def _best(target: Target, sketch: Sketch, verified: Sequence[Verified], mode: str) -> Verified:
-    """The pose that scores best, and of those that fit alike the one that needs the least deformation; a fine alignment
-    first takes those that turn least."""
+def _best(verified: Sequence[Verified], mode: str) -> Verified:
+    """The pose that scores best; a fine alignment takes the one that turns least among those that fit alike."""
     alike = _alike(verified)
     if mode != "global":
         nearest = min(float(angle(v.pose, np.eye(4))) for v in alike)
         alike = [v for v in alike if angle(v.pose, np.eye(4)) < nearest + _SAME_TURN]
-    if len(alike) == 1:
-        return alike[0]
-    return min(alike, key=lambda v: examine(target.light, sketch, v.pose, v.normals, None, rounds=0).misfit)
+    return max(alike, key=lambda v: v.evidence.score)
 
 
 def _alike(verified: Sequence[Verified]) -> list[Verified]:

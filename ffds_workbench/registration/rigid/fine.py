@@ -14,7 +14,7 @@ from .target import Target
 _MOST, _SETTLE = 0.85, 4.0
 """Cut-off of the weights: so many times the residual that most points stay below. Noise and deformation count nearly in
 full, as the best fit of a deformed part wants it; what lies apart does not."""
-_STILL = 1e-5
+_STILL = 3e-5
 """A step below this share of the part's size ends a stage."""
 _KEPT = 0.25
 """Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""

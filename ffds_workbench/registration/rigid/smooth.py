@@ -7,6 +7,7 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..splines import Array
@@ -102,7 +103,7 @@ def _displacement(points: Array, normal: Array, wanted: Array, left: Array, chos
 
 
 def settle(target: Target, points: Array, pose: Array, normals: Array, reach: float, iterations: int = 6) -> Array:
-    """Least-squares pose of a deformed part: each point against where it lies without the deformation.
+    """Least-squares pose of a deformed part: each place of it against where it lies without the deformation.
 
     Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface; the smoothest
     deformation that explains them does not.
@@ -124,7 +125,9 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
         # the deformation goes on from here, and only its fine matches change
         place, rounds, widest = found.points, 2, _WIDEST * 0.5**ROUNDS
         foot = place[sure] - found.height[sure, None] * found.normal[sure]
-        more = best_fit(moved[sure], foot)
+        # the whole part counts evenly, also where the scan is thin or shows one side alone
+        goals = target.even.points
+        more = best_fit(goals + (moved[sure] - foot)[cKDTree(foot).query(goals)[1]], goals)
         pose = more @ pose
         if angle(more, np.eye(4)) < _SETTLED and shift(more, np.eye(4), target.centre) < _SETTLED * target.size:
             break

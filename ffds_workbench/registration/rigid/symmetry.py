@@ -44,12 +44,13 @@ class Symmetry:
     def text(self) -> str:
         """One phrase for the user, empty if there is no symmetry."""
         if self.axis is not None:
-            return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*self.axis)
+            return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*np.round(self.axis, 2) + 0.0)
         phrases = []
         for pose in self.motions[self.exact]:
             turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
             size = np.linalg.norm(turn)
-            phrases.append("{:.0f}° about ({:.2f}, {:.2f}, {:.2f})".format(np.degrees(size), *turn / size))
+            axis = np.round(turn / size, 2) + 0.0
+            phrases.append("{:.0f}° about ({:.2f}, {:.2f}, {:.2f})".format(np.degrees(size), *axis))
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
 
 

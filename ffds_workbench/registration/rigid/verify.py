@@ -18,6 +18,8 @@ _NORMALS_AGREE = 0.6
 _ROUGH = 0.003
 """Noise above this share of the part's size hides sides and small features."""
 _MOST_VIEWS = 3
+_PRICE = 4.0
+"""What a deformation by the part's size takes off the score: 5 % that bend another part into this one take off 0.2."""
 _NEAR = 0.06
 """Reach of the smooth deformation that is allowed for, as a share of the part's size."""
 
@@ -34,6 +36,7 @@ class Evidence:
     coverage : share of the part's visible surface that the scan shows
     missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
     pierced : share of the part that would lie behind the table
+    bent : root mean square of the smooth deformation, as a share of the part's size
     """
 
     explained: float
@@ -41,11 +44,12 @@ class Evidence:
     coverage: float
     missing: float
     pierced: float
+    bent: float
 
     @property
     def score(self) -> float:
         """Rank among poses, larger is better, 1 is perfect."""
-        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced
+        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced - _PRICE * self.bent
 
     @property
     def certainty(self) -> float:
@@ -90,7 +94,8 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     if table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
         pierced = float(np.mean(table.heights(in_scan) < -max(table.tolerance, 0.04 * size)))
-    return Evidence(float(explained.mean()), misfit, coverage, missing, pierced)
+    bent = float(np.sqrt(np.mean((moved - found.points)[agree] ** 2) * 3.0)) / size if agree.any() else 0.0
+    return Evidence(float(explained.mean()), misfit, coverage, missing, pierced, bent)
 
 
 def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Array, normal: Array) -> Array:
