@@ -75,6 +75,8 @@ class DeformationPanel:
         if selected.scans:
             self.form.set_scan(selected.scans[-1])
         try:
+            if selected.refusal:
+                raise InputError(selected.refusal)
             picked = {standing_for(part): selected.faces[part.Name] for part in selected.parts}
             if self._item in picked:
                 picked[self._source] = picked.pop(self._item)

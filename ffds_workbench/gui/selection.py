@@ -7,6 +7,8 @@ from typing import Any
 
 import FreeCADGui as Gui
 
+from .translating import tr
+
 
 @dataclass
 class Chosen:
@@ -18,18 +20,20 @@ class Chosen:
     faces : names of the selected faces, by the name of their part
     scans : Points objects
     others : labels of what is none of these, an edge as "Part.Edge3"
+    refusal : why a part that is selected cannot be used, "" for none
     """
 
     parts: list[Any] = field(default_factory=list)
     faces: dict[str, list[str]] = field(default_factory=dict)
     scans: list[Any] = field(default_factory=list)
     others: list[str] = field(default_factory=list)
+    refusal: str = ""
 
 
 def chosen() -> Chosen:
     """The current selection; nested objects are taken as themselves."""
-    found = Chosen()
-    for entry in Gui.Selection.getSelectionEx():
+    found = Chosen(refusal=_through_links())
+    for entry in Gui.Selection.getSelectionEx() if not found.refusal else ():
         item = entry.Object
         if item.isDerivedFrom("Points::Feature"):
             found.scans.append(item)
@@ -43,6 +47,18 @@ def chosen() -> Chosen:
         else:
             found.others.append(item.Label)
     return found
+
+
+def _through_links() -> str:
+    """Why what is selected inside a link cannot be used: it stands elsewhere than the object that it shows."""
+    for entry in Gui.Selection.getSelectionEx("", 0):
+        for path in entry.SubElementNames:
+            holders = entry.Object.getSubObjectList(path)[:-1]
+            links = [item for item in holders if item.isDerivedFrom("App::Link")]
+            if links and "." in path:
+                return tr("This part is shown through the link {link}: pick it where it stands itself, or make a "
+                          "simple copy of the link.").format(link=links[0].Label)
+    return ""
 
 
 def scans_of(document: Any) -> list[Any]:

@@ -17,7 +17,7 @@ def attach(item: Any, source: Any) -> None:
     AsBuiltView(item.ViewObject)
     if source is None:
         return
-    theirs, ours = source.ViewObject, item.ViewObject
+    theirs, ours = source.getLinkedObject().ViewObject, item.ViewObject  # a link's own view has other modes
     for name in ("ShapeColor", "LineColor", "PointColor", "LineWidth", "Transparency", "DisplayMode", "DiffuseColor"):
         if hasattr(theirs, name) and getattr(theirs, name) != getattr(ours, name):
             setattr(ours, name, getattr(theirs, name))

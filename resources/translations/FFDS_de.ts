@@ -614,6 +614,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die jetzt sichtbare Seite</translation>
     </message>
     <message>
+      <source>This part is shown through the link {link}: pick it where it stands itself, or make a simple copy of the link.</source>
+      <translation>Dieses Teil wird durch den Link {link} gezeigt: Wählen Sie es, wo es selbst steht, oder machen Sie eine einfache Kopie des Links.</translation>
+    </message>
+    <message>
       <source>To the left the faces follow the scan more closely, to the right they stay smoother</source>
       <translation>Nach links folgen die Flächen dem Scan enger, nach rechts bleiben sie glatter</translation>
     </message>

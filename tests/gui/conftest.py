@@ -41,6 +41,12 @@ class Hands:
         assert found, f"no visible widget {name}"
         return found[0]
 
+    def says(self, name: str) -> str:
+        """The text of a label, "" while it is hidden."""
+        found = [item for item in QtWidgets.QApplication.allWidgets()
+                 if item.objectName() == name and item.isVisible()]
+        return found[0].text() if found else ""
+
     def click(self, widget: QtWidgets.QWidget, place: QtCore.QPoint | None = None) -> None:
         """Left click, at its middle unless told."""
         QtTest.QTest.mouseClick(widget, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier,

@@ -157,25 +157,6 @@ def test_the_deviation_map_comes_and_goes(hands, plate_document):
     assert hands.nodes() == nodes and names(plate_document) == before
 
 
-def test_what_cannot_be_used_is_greyed_or_gets_a_sentence(hands, plate_document):
-    mesh = plate_document.addObject("Mesh::Feature", "Mesh")
-    Gui.Selection.addSelection(mesh)
-    assert not any(command().IsActive() for command in (DeformFaces, ShowDeviation, ShowLattice, SimulateScan))
-    Gui.Selection.clearSelection()
-    plate_document.Scan.Placement.Base.x = 10000
-    Gui.Selection.addSelection(plate_document.Plate, "Face6")
-    hands.command(DeformFaces)
-    hands.wait(300)
-    assert hands.find("FfdsMessageLabel").text().endswith(".")
-    said = hands.answer(lambda box: box.button(QtWidgets.QMessageBox.Ok).click())
-    hands.click(hands.button(QtWidgets.QDialogButtonBox.Ok))
-    hands.until(lambda: bool(said), 10)
-    assert said[0].endswith(".") and "Traceback" not in said[0]
-    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
-    hands.until(lambda: not Gui.Control.activeDialog(), 5)
-    assert names(plate_document) == ["Plate", "Scan", "Mesh"]
-
-
 def test_a_scan_in_metres_is_asked_about(hands, plate_document, tmp_path, monkeypatch):
     import numpy as np
 
@@ -254,14 +235,17 @@ def test_a_scan_is_aligned_in_one_undo_step(hands):
 def test_pictures_of_the_readme(hands):
     hands.command(LoadExample)
     document = FreeCAD.ActiveDocument
+    document.Scan.Visibility = False
     view = Gui.ActiveDocument.ActiveView
     view.setCameraOrientation(FreeCAD.Rotation(15, 0, 62).Q)
     view.fitAll()
-    Gui.Selection.addSelection(document.Bracket, "Face9")
+    document.Scan.Visibility = True
     hands.wait(500)
     hands.screenshot("example")
+    Gui.Selection.addSelection(document.Bracket, "Face9")
     hands.command(DeformFaces)
     hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.click(hands.find("FfdsMore"))
     hands.wait(2000)
     hands.screenshot("panel")
     hands.ok()
@@ -271,7 +255,17 @@ def test_pictures_of_the_readme(hands):
     document.Scan.Visibility = False
     hands.screenshot("lattice")
     document.undo()
+    document.undo()
     document.Scan.Visibility = True
+    Gui.Selection.addSelection(document.Bracket)
+    hands.command(DeformWorkpiece)
+    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 60)
+    hands.wait(500)
+    hands.until(lambda: not hands.says("FfdsDoing"), 120)
+    hands.screenshot("whole")
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)
+    document.redo()
     Gui.Selection.addSelection(document.AsBuilt)
     hands.command(ShowDeviation)
     hands.until(Gui.Control.activeDialog, 60)

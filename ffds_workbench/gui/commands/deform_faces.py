@@ -22,7 +22,7 @@ class DeformFaces(Command):
     whole = False
 
     def active(self) -> bool:
-        """With a part or a scan selected, or nothing at all."""
+        """With a part or a scan selected, or nothing at all; what cannot be used is explained in the panel."""
         if FreeCAD.ActiveDocument is None:
             return False
         selected = chosen()
