@@ -105,7 +105,7 @@ def test_sensor_profile_widens_the_bands(part):
     top = skin(part, THICKNESS)
     plain = register_joint(part, scan_of([THICKNESS])).faces[top].band
     settings = JointSettings(sensor=SensorProfile(NOISE, NOISE, 2.0))
-    inflation = settings.sensor.inflation(NOISE, DENSITY)
+    inflation = 1 + settings.sensor.shared * DENSITY / NOISE**2      # of the variance of a mean over a large area
     correlated = register_joint(part, scan_of([THICKNESS]), settings).faces[top].band
     # Stiffer against weaker data: the band grows by less than the noise does, but clearly.
     assert 0.3 * np.sqrt(inflation) < correlated / plain < 1.2 * np.sqrt(inflation)

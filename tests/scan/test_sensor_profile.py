@@ -108,12 +108,11 @@ def test_missing_profile():
         sensor_profile.find("nothing.json")
 
 
-def test_inflation_is_that_of_a_mean():
-    # n points in a square of side s ≫ l: variance of their mean is σ²/n + σ_c² 2πl²/s², over σ²/n
-    profile = SensorProfile(0.1, 0.05, 2.0)
-    area, count = 100.0**2, 50_000
-    expected = (0.1**2 / count + 0.05**2 * 2 * np.pi * 2.0**2 / area) / (0.1**2 / count)
-    assert profile.inflation(0.1, count / area) == pytest.approx(expected)
+def test_shared_is_the_integral_of_the_covariance():
+    step = 1e-3
+    radius = np.arange(0.5 * step, 30.0, step)
+    covariance = 0.05**2 * np.exp(-(radius**2) / (2 * 2.0**2))
+    assert SensorProfile(0.1, 0.05, 2.0).shared == pytest.approx((2 * np.pi * radius * covariance).sum() * step)
 
 
 def test_written_as_plain_json(tmp_path):

@@ -11,9 +11,9 @@ from .problem import Problem
 from .samples import Samples
 
 _TWO_SIDED = 1.96
-_UNSEEN, _FAR = 2.57, 5.0
+_UNSEEN, _FAR = 3.18, 3.0
 """The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
-that the shape strays as Student's t with five degrees of freedom does."""
+that the shape strays as Student's t with three degrees of freedom does."""
 _LEAK, _LEAK_ZONE = 0.08, 2.0
 """Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
 reaches into the face."""
@@ -26,25 +26,28 @@ def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
     return covariance[problem.pattern.span_position.reshape(-1, 16, 16)[spans]]
 
 
-def normal_bands(problem: Problem, covariance: Array, table: Array, normal: Array, gap: Array, border: Array,
-                 misfit: Array) -> Array:
+def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Array, normal: Array, gap: Array,
+                 border: Array, misfit: Array) -> Array:
     """Bands along the normals (spans, k, 3) at places with basis functions ``table`` (k, 16): (spans, k) in mm.
 
     ``gap`` (spans, k) is the distance from what was observed, ``border`` that from the border of the face, in mm,
-    ``misfit`` (spans,) a variance in mm².
+    ``misfit`` (spans,) a variance in mm²; ``errors`` (n, controls, 3) are changes that shared noise may cause.
     """
     variance = np.zeros(normal.shape[:2])
+    for error in errors:
+        moved = np.matmul(table, error[problem.lattices.controls])
+        variance += np.einsum("skx,skx->sk", moved, normal) ** 2 / len(errors)
     for start in range(0, len(normal), 256):
         spans = np.arange(start, min(start + 256, len(normal)))
         at = np.einsum("ki,kj,sijxy->skxy", table, table, span_covariance(problem, covariance, spans), optimize=True)
-        variance[spans] = np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
+        variance[spans] += np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
     leak = _LEAK * problem.statistics.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
     return _quantile(gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
 
 
-def edge_bands(problem: Problem, covariance: Array, samples: Samples, direction: Array, gap: Array,
+def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samples, direction: Array, gap: Array,
                misfit: Array) -> Array:
-    """Bands across edges with unit directions (n, 3): (n,) in mm; ``misfit`` (n,) is a variance in mm².
+    """Bands across edges with unit directions (n, 3): (n,) in mm; the others as for `normal_bands`, edge by edge.
 
     The distance of two curves is two-dimensional; its 95 % quantile follows from the two variances across the edge by
     Satterthwaite's approximation.
@@ -56,6 +59,9 @@ def edge_bands(problem: Problem, covariance: Array, samples: Samples, direction:
         position = problem.pattern.position(rows, columns)
         blocks = covariance[position].reshape(len(part), 16, 16, 3, 3)
         at = np.einsum("ni,nj,nijxy->nxy", part.weights[0], part.weights[0], blocks, optimize=True)
+        for error in errors:
+            moved = part.displacement(error)
+            at += moved[:, :, None] * moved[:, None, :] / len(errors)
         along = direction[start : start + len(part)]
         project = np.eye(3) - along[:, :, None] * along[:, None, :]
         variance = np.linalg.eigvalsh(project @ at @ project)[:, 1:]

@@ -71,12 +71,6 @@ class Problem:
     margin: Array
 
     @property
-    def inflation(self) -> float:
-        """How much less the data weigh because of correlated noise."""
-        sensor = self.settings.sensor
-        return sensor.inflation(sensor.sigma or self.statistics.noise, self.statistics.density)
-
-    @property
     def face_of_cell(self) -> Index:
         """Face of every cell by its flat number."""
         return np.repeat(self.lattices.face_of_span, self.cells.inside.shape[1])

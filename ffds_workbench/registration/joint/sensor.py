@@ -30,10 +30,3 @@ class SensorProfile:
     def shared(self) -> float:
         """∫ of the correlated noise's covariance over the surface, 2π l² σ_c², in mm⁴."""
         return 2 * np.pi * self.correlation_length**2 * self.sigma_c**2
-
-    def inflation(self, noise: float, density: float) -> float:
-        """Ratio of the variance of a smooth fit to that on white noise alone: 1 + 2π l² σ_c² ρ/σ².
-
-        ``noise`` is the white noise in mm, ``density`` in points per mm².
-        """
-        return 1.0 + self.shared * density / noise**2

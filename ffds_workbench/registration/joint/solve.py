@@ -102,7 +102,6 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     cell_values = tukey_means if stage.all_points else medians
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
-    values = replace(values, weight=values.weight / problem.inflation)
     equations = (data_equations(problem, jet, values)
                  + shape_equations(problem, state.control_points, stage.bending, state.trust))
     if stage.soft:

@@ -18,6 +18,7 @@ from .problem import Problem
 from .raster import normals
 from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidMotion
 from .samples import sample
+from .shared_noise import shared_errors
 from .sheet import parameters
 from .state import State
 from .trust import is_isometric, observed_strain
@@ -84,10 +85,11 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
     covariance = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
-    off = misfit(problem, state.values)
+    off, errors = misfit(problem, state.values), shared_errors(problem, state)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     return JointRegistration(
-        faces=_faces(problem, state, covariance, seen, off), edges=_edges(problem, state, covariance, seen, off),
+        faces=_faces(problem, state, covariance, errors, seen, off),
+        edges=_edges(problem, state, covariance, errors, seen, off),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()))
@@ -103,7 +105,8 @@ def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
     return tuple(result)
 
 
-def _faces(problem: Problem, state: State, covariance: Array, seen: Coverage, off: Array) -> tuple[JointFace, ...]:
+def _faces(problem: Problem, state: State, covariance: Array, errors: Array, seen: Coverage, off: Array
+           ) -> tuple[JointFace, ...]:
     places, lattices = problem.stiffness.places, problem.lattices
     jet = places.displaced(lattices, state.control_points, 3)
     normal = normals(jet, places.outward)[0]
@@ -114,7 +117,8 @@ def _faces(problem: Problem, state: State, covariance: Array, seen: Coverage, of
     gap = np.zeros(places.inside.shape)
     gap[span, place] = gap_inside
     beyond = np.maximum(gap - 2 * seen.near, 0.0)
-    bands = normal_bands(problem, covariance, places.tables[0], normal, beyond, _border(problem), off)[span, place]
+    bands = normal_bands(problem, covariance, errors, places.tables[0], normal, beyond, _border(problem),
+                         off)[span, place]
     flags = seen.flags(gap_inside, face, 2 * seen.near)
     points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
     result = []
@@ -133,7 +137,7 @@ def _border(problem: Problem) -> Array:
     return problem.distance[:, cell[:, 0] * per_span + cell[:, 1]]
 
 
-def _edges(problem: Problem, state: State, covariance: Array, seen: Coverage, off: Array
+def _edges(problem: Problem, state: State, covariance: Array, errors: Array, seen: Coverage, off: Array
            ) -> tuple[EdgeRegistration, ...]:
     part, lattices = problem.part, problem.lattices
     edges = [edge for edge in part.edges if edge.faces]
@@ -147,7 +151,7 @@ def _edges(problem: Problem, state: State, covariance: Array, seen: Coverage, of
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
     flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
     spans = nearest_spans(problem, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
-    bands = edge_bands(problem, covariance, samples, _directions(points, number), gap,
+    bands = edge_bands(problem, covariance, errors, samples, _directions(points, number), gap,
                        off[spans].reshape(2, -1).max(axis=0))
     result = []
     for index, edge in enumerate(part.edges):
