@@ -21,7 +21,7 @@ from ..registration.ffds import register_ffds
 from ..registration.robust import register_robust
 from ..registration.splines import Array
 from . import page, style
-from .interleaved import best_seconds, median_seconds
+from .interleaved import best_seconds, median_seconds, timed
 from .page import Picture, Section, Table
 from .sheet import NOISE, nominal, scan
 
@@ -41,7 +41,11 @@ _NAMES = {"ffds": "ffds, N = 10", "robust": "robust", "kdtree": "k-d tree build"
 
 def run(folder: Path, progress: Progress) -> str:
     """Measure, and write ``scaling.json``, ``scaling.md``, ``scaling.html`` and pictures; returns the tables."""
-    points, lattices, faces = over_points(progress), over_lattices(progress), over_faces(progress)
+    return write(folder, over_points(progress), over_lattices(progress), over_faces(progress))
+
+
+def write(folder: Path, points: list[Row], lattices: list[Row], faces: list[Row]) -> str:
+    """Write the tables and the picture of what was measured; returns the tables."""
     further = further_point(points)
     data = {"points": points, "lattices": lattices, "faces": faces, "ns_per_further_point": further,
             "exponents": {"points": _exponents(points, "points", _NAMES),
@@ -100,8 +104,10 @@ def over_faces(progress: Progress) -> list[Row]:
         progress(f"Scaling: {count} faces")
         shape, points = tiles(round(np.sqrt(count)))
         start = time.perf_counter()
-        timing = api.register(shape, points).report["timing"]
-        rows.append({"faces": count, "points": len(points), **timing, "total": time.perf_counter() - start})
+        result, seconds = timed(partial(api.register, shape, points))
+        share = seconds / (time.perf_counter() - start)      # of the elapsed time, which the stages are given in
+        stages = {stage: share * value for stage, value in result.report["timing"].items()}
+        rows.append({"faces": count, "points": len(points), **stages, "total": seconds})
     return rows
 
 

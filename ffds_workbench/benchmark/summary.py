@@ -21,6 +21,8 @@ Progress = Callable[[str], None]
 
 START, END = "<!-- performance: ./ffds benchmark summary -->", "<!-- /performance -->"
 _SOURCES = ("paper", "peers", "scaling")
+_SHEETS = {"A": "clean", "D": "dirty"}
+_METHODS = {"ffds": "ffds", "robust": "robust", "kdtree": "building a k-d tree", "read": "reading the array"}
 
 
 def run(folder: Path, progress: Progress, readme: Path = ROOT / "README.md") -> str:
@@ -55,14 +57,15 @@ def section(data: dict[str, Any]) -> str:
                   _paper(data["paper"]).markdown()]
     if "peers" in data:
         parts += ["`./ffds benchmark peers --out DIR` runs what one would take instead.",
-                  _peers(data["peers"]).markdown()]
+                  _peers(data["peers"]).markdown(), _comparison(data["peers"])]
         parts += [f"Not run: {name} ({why})." for name, why in data["peers"]["skipped"].items()]
     if "scaling" in data:
-        parts += ["`./ffds benchmark scaling --out DIR` grows the scan.", _scaling(data["scaling"]).markdown()]
+        parts += ["`./ffds benchmark scaling --out DIR` grows the scan, the lattice and the number of faces.",
+                  _scaling(data["scaling"]).markdown(), _faces(data["scaling"])]
     missing = [name for name in _SOURCES if name not in data]
     if missing:
         parts.append("Not measured for this summary: " + ", ".join(missing) + ".")
-    return "\n\n".join(parts)
+    return "\n\n".join(filter(None, parts))
 
 
 def _paper(data: dict[str, Any]) -> Table:
@@ -88,15 +91,38 @@ def _peers(data: dict[str, Any]) -> Table:
     return Table("True mean distance on a sheet, 42,087 points, clean and dirty", head, rows)
 
 
+def _comparison(data: dict[str, Any]) -> str:
+    """The ratios that matter, and who is better than the robust method at what."""
+    rows, figures = data["rows"], data["comparison"]
+    robust = next(row for row in rows if row["name"] == "robust")
+    better = []
+    for case, sheet in _SHEETS.items():
+        for key, what in (("true_mean", "more accurate"), ("seconds", "faster")):
+            names = [row["title"] for row in rows if row[case].get(key, robust[case][key]) < robust[case][key]]
+            better.append(f"{what} on the {sheet} sheet: {', '.join(names) or 'none'}")
+    return (f"True mean on the dirty sheet: FFDS as published ÷ robust {figures['published_to_robust_on_D']:.0f}, best "
+            f"general peer ÷ robust {figures['best_peer_to_robust_on_D']:.0f}; on the clean sheet robust ÷ best "
+            f"general peer {figures['robust_to_best_peer_on_A']:.2f}. Than the robust method, {'; '.join(better)}.")
+
+
 def _figures(case: dict[str, Any]) -> list[str]:
     return ["failed", ""] if "failed" in case else [f"{case['true_mean']:.4f}", f"{case['seconds']:.3g}"]
 
 
 def _scaling(data: dict[str, Any]) -> Table:
     last = data["points"][-1]
-    rows = [[name, f"{1e3 * last[name]:.0f}", f"{data['ns_per_further_point'][name]['from_1m_to_5m']:.0f}",
-             f"{data['ns_per_further_point'][name]['ratio']:.2f}",
-             f"{last[f'{name}_mb']:.0f}" if name != "kdtree" else ""]
-            for name in ("ffds", "robust", "kdtree")]
+    rows = []
+    for name, title in _METHODS.items():
+        further = data["ns_per_further_point"][name]
+        rows.append([title, f"{1e3 * last[name]:.0f}", f"{further['from_1m_to_5m']:.1f}", f"{further['ratio']:.2f}",
+                     f"{last[f'{name}_mb']:.0f}" if f"{name}_mb" in last else ""])
     head = ("", "ms", "ns per further point", "÷ those up to 1M", "MB")
     return Table(f"{last['points']:,} points on one face", head, rows)
+
+
+def _faces(data: dict[str, Any]) -> str:
+    if not data.get("faces"):
+        return ""
+    few, many = data["faces"][len(data["faces"]) // 2], data["faces"][-1]
+    return (f"A whole part with {few['faces']} connected faces, 2,000 scan points each, takes {few['total']:.0f} s, "
+            f"with {many['faces']} faces {many['total']:.0f} s, certificate included.")

@@ -12,16 +12,17 @@ from ffds_workbench.errors import InputError
 
 def test_section_replaces_what_stands_between_the_marks(tmp_path):
     further = {"from_100k_to_1m": 50.0, "from_1m_to_5m": 60.0, "ratio": 1.2}
-    last = {"points": 5_000_000, "ffds": 0.3, "robust": 0.5, "kdtree": 2.5, "ffds_mb": 300, "robust_mb": 500}
+    last = {"points": 5_000_000, "ffds": 0.3, "robust": 0.5, "kdtree": 2.5, "read": 0.005, "ffds_mb": 300,
+            "robust_mb": 500}
     data = {"points": [last],
-            "ns_per_further_point": dict.fromkeys(("ffds", "robust", "kdtree"), further)}
+            "ns_per_further_point": dict.fromkeys(("ffds", "robust", "kdtree", "read"), further)}
     (tmp_path / "scaling.json").write_text(json.dumps(data))
     readme = tmp_path / "README.md"
     readme.write_text(f"before\n{summary.START}\nold\n{summary.END}\nafter\n")
     text = summary.run(tmp_path, lambda stage: None, readme)
     assert "./ffds benchmark scaling" in text and "Not measured for this summary: paper, peers" in text
     whole = readme.read_text()
-    assert "old" not in whole and "| ffds | 300 | 60 | 1.20 | 300 |" in whole
+    assert "old" not in whole and "| ffds | 300 | 60.0 | 1.20 | 300 |" in whole
     assert whole.startswith("before\n") and whole.endswith("\nafter\n")
 
 
