@@ -35,5 +35,6 @@ def test_the_start_of_freecad_is_hardly_longer(tmp_path):
         for name, found in times.items():
             found.append(start(tmp_path / name))
     added = min(times["with"]) - min(times["without"])
-    print(f"\nstart of FreeCAD: {min(times['without']):.2f} s of the processor, the workbench adds {1000 * added:.0f} ms")
+    print(f"\nstart of FreeCAD: {min(times['without']):.2f} s of the processor, the workbench adds "
+          f"{1000 * added:.0f} ms")
     assert added < MOST + NOISE
