@@ -18,8 +18,8 @@ _NORMALS_AGREE = 0.6
 _ROUGH = 0.003
 """Noise above this share of the part's size hides sides and small features."""
 _MOST_VIEWS = 3
-_PRICE = 4.0
-"""What a deformation by the part's size takes off the score: 5 % that bend another part into this one take off 0.2."""
+_PRICE = 6.0
+"""What a deformation by the part's size takes off the score: 4 % that bend another part into this one take off 0.24."""
 _NEAR = 0.06
 """Reach of the smooth deformation that is allowed for, as a share of the part's size."""
 
