@@ -79,13 +79,23 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     scalar = weight * problem.bending + problem.coupled + trust.shear * problem.shear
-    blocks = (scalar[:, None, None] * np.eye(3) + trust.dihedral * problem.dihedral
+    blocks = (scalar[:, None, None] * np.eye(3) + problem.smooth + trust.dihedral * problem.dihedral
               + (trust.thickness - trust.shear) * problem.thickness)
-    right = (weight * gather(problem, stiffness.bending_load(normal - stiffness.normal))
+    bent = _evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
+    right = (weight * gather(problem, stiffness.bending_load(normal, bent))
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
-             + trust.dihedral * problem.couplings.dihedral_load(control_points)
+             + problem.couplings.dihedral_load(control_points, trust.dihedral)
              - _apply(problem, weight * problem.bending + problem.coupled, control_points))
     return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, problem.isometry_weights(trust))
+
+
+def _evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array:
+    """Mean change of curvature of the face that a span belongs to: (spans, 3). A sheet rolled as a whole is smooth."""
+    face, area = problem.lattices.face_of_span, problem.stiffness.area
+    change = np.einsum("sk,skp->sp", area, problem.stiffness.curvature_change(problem.lattices, control_points, normal))
+    whole = np.maximum(np.bincount(face, weights=area.sum(axis=1)), 1e-12)
+    mean = np.stack([np.bincount(face, weights=change[:, p]) for p in range(3)], axis=1) / whole[:, None]
+    return np.where(problem.skin[:, None], mean[face], 0.0)
 
 
 def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, diags, vstack
 
 from ..splines import Array
@@ -21,6 +22,8 @@ from .sheet import SheetPairs
 _FROZEN = 1e9
 _PRIOR_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
 _SMOOTHEST = 1e-9
+_SMOOTH_ANGLE = 0.2
+"""Angle in rad up to which faces count as one smooth surface, which stays smooth however it deforms."""
 
 
 @dataclass(frozen=True)
@@ -55,9 +58,10 @@ class Couplings:
     angle : (samples,) nominal angle of the edges in rad
     thickness_rows : (pairs, controls) d_back − d_front
     thickness_weight : (pairs,) 1/mm²
-    dihedral : (3 controls, 3 controls) normal matrix of the edge angles
+    smooth, dihedral : (3 controls, 3 controls) normal matrices of the angles of smooth edges and of all others
     dihedral_rows : (samples, 3 controls) change of the angle between the faces
     dihedral_weight : (samples,) 1/rad²
+    sharp : (samples,) whether the faces meet at an angle
     """
 
     scalar: csr_matrix
@@ -69,9 +73,11 @@ class Couplings:
     angle: Array
     thickness_rows: csr_matrix
     thickness_weight: Array
+    smooth: csr_matrix
     dihedral: csr_matrix
     dihedral_rows: csr_matrix
     dihedral_weight: Array
+    sharp: NDArray[np.bool_]
 
     def thickness_load(self, control_points: Array, thickness: float, shear: float) -> Array:
         """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3).
@@ -91,10 +97,10 @@ class Couplings:
         across = np.einsum("nx,nx->n", misfit, self.pair_normal)
         return across, misfit - across[:, None] * self.pair_normal
 
-    def dihedral_load(self, control_points: Array) -> Array:
-        """Gradient that brings every edge back to its nominal angle, (controls, 3)."""
-        change = self.angle_change(control_points)
-        return -(self.dihedral_rows.T @ (self.dihedral_weight * change)).reshape(-1, 3)
+    def dihedral_load(self, control_points: Array, trust: float) -> Array:
+        """Gradient that brings every edge back to its nominal angle, sharp ones as far as trusted: (controls, 3)."""
+        weight = np.where(self.sharp, trust, 1.0) * self.dihedral_weight
+        return -(self.dihedral_rows.T @ (weight * self.angle_change(control_points))).reshape(-1, 3)
 
     def angle_change(self, control_points: Array) -> Array:
         """Change of the angles of the edges from the nominal ones, (samples,) in rad."""
@@ -124,14 +130,17 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     dihedral_weight = edges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, settings, information)))
-    dihedral = dihedral_rows.T @ diags(dihedral_weight) @ dihedral_rows
     shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
     across = _along(thickness_rows, normal)
     thickness = (across.T @ diags(thickness_weight) @ across).tocsr()
-    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, normal, _angle(edges, still), thickness_rows,
-                     thickness_weight, dihedral.tocsr(), dihedral_rows, dihedral_weight)
+    angle = _angle(edges, still)
+    sharp = np.abs(angle) > _SMOOTH_ANGLE
+    smooth, dihedral = ((rows.T @ diags(dihedral_weight[which]) @ rows).tocsr()
+                        for which in (~sharp, sharp) for rows in (dihedral_rows[which],))
+    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, normal, angle, thickness_rows, thickness_weight,
+                     smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
 
 def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:

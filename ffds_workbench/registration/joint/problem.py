@@ -44,7 +44,7 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    bending, coupled, dihedral : constant rows on the pattern, bending without its weight
+    bending, coupled, smooth, dihedral : constant rows on the pattern, bending without its weight
     shear, thickness : those of the distance of opposite skins in all directions, and of its part along the normal
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
@@ -66,6 +66,7 @@ class Problem:
     coupled: Array
     shear: Array
     thickness: Array
+    smooth: Array
     dihedral: Array
     sides: EdgeSides
     margin: Array
@@ -113,7 +114,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / statistics.noise**2)
-    coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral)
+    coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
@@ -121,7 +122,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
                    pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
                    pattern.from_scalar(couplings.shear), pattern.from_vector(couplings.thickness),
-                   pattern.from_vector(couplings.dihedral),
+                   pattern.from_vector(couplings.smooth), pattern.from_vector(couplings.dihedral),
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
 

@@ -53,14 +53,23 @@ class Stiffness:
         weight = np.repeat(self.weight, 3, axis=1)[:, :, None]
         return np.matmul(rows.swapaxes(1, 2), weight * rows)
 
-    def bending_load(self, turned: Array) -> Array:
-        """Gradient of bending towards the rotated nominal curvature b_ij (n − n₀): (spans, 16, 3).
+    def bending_load(self, normal: Array, bent: Array) -> Array:
+        """Gradient of bending towards the rotated nominal curvature b_ij (n − n₀) + c_ij n: (spans, 16, 3).
 
-        ``turned`` is the current n − n₀, (spans, k, 3). A rigid rotation has d_;ij = b_ij (n − n₀) and costs nothing.
+        ``normal`` is the current n, (spans, k, 3); ``bent`` the change of curvature c that costs nothing, (spans, 3). A
+        rigid rotation has d_;ij = b_ij (n − n₀) and costs nothing either.
         """
-        target = self.curvature[:, :, :, None] * turned[:, :, None, :] * self.weight[:, :, None, None]
+        target = self.curvature[..., None] * (normal - self.normal)[:, :, None, :]
+        target += bent[:, None, :, None] * normal[:, :, None, :]
+        target *= self.weight[:, :, None, None]
         rows = self.hessian.reshape(len(self.hessian), -1, 16)
         return np.matmul(rows.swapaxes(1, 2), target.reshape(len(rows), -1, 3))
+
+    def curvature_change(self, lattices: Lattices, control_points: Array, normal: Array) -> Array:
+        """Change of the second fundamental form at the Gauss places, 11, √2·12, 22: (spans, k, 3)."""
+        change = np.matmul(self.hessian, control_points[lattices.controls][:, None])
+        change -= self.curvature[..., None] * (normal - self.normal)[:, :, None, :]
+        return np.einsum("skpx,skx->skp", change, normal)
 
     def strain(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
         """Green strain of the mid surface: (spans, k, 3).

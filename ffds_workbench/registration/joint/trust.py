@@ -20,7 +20,8 @@ _EXPECTED = Trust(isometry=80.0, thickness=20.0, shear=10.0, dihedral=6.0)
 """Shapes that a scan tells of a part for each prior; traces of the covariance give half to twice of these."""
 _CONTROLS = 1000.0
 """Parts with more control points than this have more of them."""
-_LEAST = 1e-3
+_LEAST = Trust(isometry=1e-3, thickness=1e-2, shear=1e-3, dihedral=1e-3)
+"""A sheet bends, stretches and even shears far more easily than it changes its thickness."""
 _OFF = 1e-6
 _ISOMETRIC = 0.1
 """A part counts as isometric while its isometry is trusted by more than this."""
@@ -34,7 +35,7 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
     if stage.soft:
         cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
         trust = Trust(**{name: float(np.clip(number * getattr(_EXPECTED, name) / max(getattr(cost, name), 1e-12),
-                                             _LEAST, 1.0)) for name in vars(trust)})
+                                             getattr(_LEAST, name), 1.0)) for name in vars(trust)})
     if mode != "auto":
         trust = replace(trust, isometry=1.0 if mode == "on" else _OFF)
     return replace(state, trust=trust)
@@ -45,11 +46,11 @@ def costs(problem: Problem, control_points: Array) -> Trust:
     couplings = problem.couplings
     strain = (problem.stiffness.weight * (strain_at(problem, control_points) ** 2).sum(axis=2)).sum(axis=1)
     across, along = couplings.thickness_misfit(control_points)
-    weight = couplings.thickness_weight
+    weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return Trust(isometry=float((problem.skin * problem.isometry_weights(Trust()) * strain).sum()),
                  thickness=float((weight * across**2).sum()),
                  shear=float((weight[:, None] * along**2).sum()),
-                 dihedral=float((couplings.dihedral_weight * couplings.angle_change(control_points) ** 2).sum()))
+                 dihedral=float((couplings.dihedral_weight[couplings.sharp] * turned**2).sum()))
 
 
 def strain_at(problem: Problem, control_points: Array) -> Array:
