@@ -27,6 +27,7 @@ from .splines import Array
 from .start import dense_layers, rigid_start
 
 _FEWEST_POINTS, _FEWEST_FITTED = 30, 20
+_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
 """Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
 
@@ -48,7 +49,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
     settings = settings or RobustSettings()
-    raster = make_raster(face)
+    raster = make_raster(face, max(_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0))))
     # What lies farther than the face is long cannot be told from its surroundings.
     settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
