@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import LSQBivariateSpline
 from scipy.ndimage import gaussian_filter
 
 from ..registration.face import FaceGeometry
@@ -49,13 +50,25 @@ def scan(kind: str, seed: int, points: int = POINTS) -> Array:
         side and 4 % on a sheet 1.5 mm below another. "E": D with noise that is correlated over 1.5 mm
     """
     random = np.random.default_rng(seed)
+    cloud = _inliers(random, kind, points)
+    return cloud if kind == "A" else np.concatenate([cloud, *_clutter(random, points)])
+
+
+def least_squares_deviation(kind: str, seed: int, spans: int = 7, points: int = POINTS) -> Array:
+    """True deviations of plain least squares on those points of a scan that are the sheet's, which only the simulation
+    knows: a bicubic spline of so many spans per direction, judged as `deviation` judges."""
+    x, y, z = _inliers(np.random.default_rng(seed), kind, points).T
+    knots = [np.linspace(0.0, side, spans + 1)[1:-1] for side in SIZE]
+    fit = LSQBivariateSpline(x, y, z, *knots, bbox=[0.0, SIZE[0], 0.0, SIZE[1]])
+    return np.abs(fit(*_grid()) - height(*np.meshgrid(*_grid(), indexing="ij"))).ravel()
+
+
+def _inliers(random: np.random.Generator, kind: str, points: int) -> Array:
+    """The points of the sheet itself that are seen."""
     x, y = random.uniform((0, 0), SIZE, (points, 2)).T
     noise = _correlated_noise(random, x, y) if kind == "E" else random.normal(0, NOISE, points)
     cloud = np.stack([x, y, height(x, y) + noise], axis=1)
-    if kind == "A":
-        return cloud
-    cloud = cloud[~_hidden(random, x, y)]
-    return np.concatenate([cloud, *_clutter(random, points)])
+    return cloud if kind == "A" else cloud[~_hidden(random, x, y)]
 
 
 @dataclass(frozen=True)
@@ -101,7 +114,7 @@ class Bend:
         border = np.concatenate([np.stack(side, axis=1) for side in sides]) * SIZE
         reached = np.concatenate([border, np.zeros((len(border), 1))], axis=1) + displacement(border)
         true = self.at(border[:, 0], border[:, 1])
-        return np.array([_to_polyline(true[k], reached[k]) for k in np.split(np.arange(len(border)), 4)]).ravel()
+        return np.array([to_polyline(true[k], reached[k]) for k in np.split(np.arange(len(border)), 4)]).ravel()
 
 
 def deviation(displacement: SplineSurface) -> Array:
@@ -119,7 +132,7 @@ def _deformed(displacement: SplineSurface, x: Array, y: Array) -> Array:
     return place + displacement.on_grid(x, y)
 
 
-def _to_polyline(points: Array, line: Array) -> Array:
+def to_polyline(points: Array, line: Array) -> Array:
     """Distances of points from a polyline."""
     start, way = line[:-1], np.diff(line, axis=0)
     share = np.einsum("pik,ik->pi", points[:, None] - start, way) / np.maximum((way * way).sum(axis=1), 1e-300)

@@ -11,13 +11,13 @@ from .problem import Problem
 from .samples import Samples
 
 _TWO_SIDED = 1.96
-_UNSEEN, _FAR = 3.18, 3.0
+_UNSEEN, _FAR = 3.56, 2.0
 """The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
-that the shape strays as Student's t with three degrees of freedom does."""
+that the shape strays as Student's t with few (2.5) degrees of freedom does."""
 _LEAK, _LEAK_ZONE = 0.08, 2.0
 """Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
 reaches into the face."""
-_EDGE_MISFIT = 0.025
+_EDGE_MISFIT = 0.035
 """Standard deviation in mm of the place of an edge beyond what its faces' covariance tells."""
 
 
