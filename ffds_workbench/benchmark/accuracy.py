@@ -119,8 +119,8 @@ def _sheets(folder: Path, data: dict[str, Any]) -> list[Section]:
             for name, row in data["bend"].items()]
     tables.append(Table("Sheet rolled to R = 150 mm, mm", ["method", "surface mean", "max", "edge mean", "max"], rows))
     text = ["The sheet is 75 × 70 mm and scanned with 42,087 points; its deformation of about 6 mm is a formula, so "
-            "deviations are true. ffds: 400 source points, 10 × 10 control points. Least squares gets the sheet's points "
-            "alone, which no method knows, and runs wild in gaps.",
+            "deviations are true. ffds: 400 source points, 10 × 10 control points. Least squares gets the sheet's "
+            "points alone, which no method knows, and runs wild in gaps.",
             "On the rolled sheet nothing is stretched; a single face registered along its normal slides at its edges."]
     return [Section("Synthetic sheet", text, tables=tables)]
 
