@@ -17,7 +17,7 @@ from .paper_case import PaperCase, edge_distance, lifted, outline, true_distance
 from .sheet import nominal
 
 METHODS: dict[str, Callable[..., FaceRegistration]] = {
-    "ffds": lambda scan, lattice, points: register_ffds(nominal(), scan, lattice, points),
+    "ffds": lambda scan, lattice, points: register_ffds(nominal(), scan, lattice, points, overshoot=np.inf),
     "ffd_hsu": lambda scan, lattice, points: register_ffd(nominal(), scan, lattice, points),
     "robust": lambda scan, lattice, points: register_robust(nominal(), scan, lattice),
 }

@@ -33,7 +33,7 @@ class UndeterminedError(RefusedError):
 
 
 def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = (10, 10),
-                  source_points: int = 400, reach: float = REACH) -> FaceRegistration:
+                  source_points: int = 400, reach: float = REACH, overshoot: float = _OVERSHOOT) -> FaceRegistration:
     """Deform a face to a scan: the paper's steps 1 to 5.
 
     Parameters
@@ -44,6 +44,8 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
         determine
     source_points : number of points of the equidistant grid on the face, rounded to a square; those in holes drop out
     reach : mm; the share of source points with a neighbour nearer than this is the coverage
+    overshoot : how many times as far as the source points control points may move; infinity takes what the paper's
+        algorithm gives
 
     Raises
     ------
@@ -52,7 +54,7 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
     """
     if lattice is None:
         return _finest(face, scan, source_points, reach)
-    return _register(face, scan, lattice, source_points, reach, _OVERSHOOT)
+    return _register(face, scan, lattice, source_points, reach, overshoot)
 
 
 def _finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
