@@ -21,6 +21,8 @@ Index = NDArray[np.intp]
 _SLOPE = 0.2
 _NOISE = 2.0
 _MAIN = 0.1
+_SPARSE = 0.25
+"""Layers with less than this share of the usual number of points join nothing: outliers between two sheets would."""
 _MOST_LAYERS = 4
 
 
@@ -54,7 +56,8 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
     dy = raster.nearest_turn(layers.y[a] - layers.y[b], 1) * raster.size[1]
     step = np.hypot(dx, dy)
     residual = np.nan_to_num(residual, posinf=1e9)
-    joined = np.abs(residual[a] - residual[b]) <= _SLOPE * step + _NOISE * layers.noise
+    dense = layers.count >= _SPARSE * np.median(layers.count)
+    joined = dense[a] & dense[b] & (np.abs(residual[a] - residual[b]) <= _SLOPE * step + _NOISE * layers.noise)
     graph = coo_matrix((np.ones(np.count_nonzero(joined)), (a[joined], b[joined])), shape=(len(block), len(block)))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
 
