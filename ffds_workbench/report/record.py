@@ -18,6 +18,8 @@ from .statistics import statistics
 
 Record = dict[str, Any]
 
+_DIGITS = 5
+
 
 def scan_record(scan: PointCloud, noise: float | None, sensor: SensorProfile | None = None) -> Record:
     """The report's ``scan`` block; ``sensor`` is the profile that the bands rest on, where it is not white noise."""
@@ -53,7 +55,8 @@ def face_records(names: Sequence[str], moved: Collection[str], registrations: It
         flag = entry.flag if joint else "nominal" if name not in moved else "observed" if entry else "carried"
         records.append({
             "name": name, "lattice": list(entry.lattice) if entry else None, "points": entry.points if entry else 0,
-            "coverage": entry.coverage if entry else 0.0, "flag": flag, "band": entry.band if joint else None,
+            "coverage": entry.coverage if entry else 0.0, "flag": flag,
+            "band": entry.band if joint and np.isfinite(entry.band) else None,
             "deviation_before": figures(first.deviations) if first else None,
             "deviation_after": figures(second.deviations) if second else None})
     return records
@@ -72,8 +75,10 @@ def edge_records(edge_faces: Sequence[Sequence[str]], moved: Sequence[str], obse
 
 
 def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
-    """The report's ``edges`` of a solve over all faces: what each rests on, and its band in mm."""
-    return [{"name": edge.name, "flag": edge.flag, "band": edge.band} for edge in edges]
+    """The report's ``edges`` of a solve over all faces: what each rests on and its band in mm, all in all and at equal
+    steps along it."""
+    return [{"name": edge.name, "flag": edge.flag, "band": edge.band if len(edge.points) else None,
+             "along": {"bands": edge.bands.round(_DIGITS).tolist(), "flags": edge.flags.tolist()}} for edge in edges]
 
 
 def sheet_record(joint: JointRegistration | None) -> Record:

@@ -106,3 +106,20 @@ def test_requests_that_cannot_be_read(scan, arguments, message):
 def test_an_array_of_another_shape():
     with pytest.raises(api.InputError, match=r"\(n, 3\)"):
         api.deviation(Part.makeBox(1, 1, 1), np.zeros((5, 2)))
+
+
+def test_a_hidden_face_is_carried_and_its_band_is_wider():
+    """The same plate with its underside scanned or not: only the underside's flag changes, and its band grows."""
+    random = np.random.default_rng(2)
+    sides = []
+    for z in (5.0, 0.0):
+        x, y = random.uniform((0, 0), (60, 40), (8000, 2)).T
+        sides.append(np.stack([x, y, z + _bump(x, y) + random.normal(0, NOISE, 8000)], axis=1))
+    seen, hidden = (api.register(Part.makeBox(60, 40, 5), np.concatenate(sides[:count])).report for count in (2, 1))
+    faces = [{face["name"]: face for face in report["faces"]} for report in (seen, hidden)]
+    assert [face["Face5"]["flag"] for face in faces] == ["observed", "carried"]
+    assert [face["Face6"]["flag"] for face in faces] == ["observed", "observed"]
+    assert faces[1]["Face5"]["band"] > 2 * faces[0]["Face5"]["band"]
+    assert faces[1]["Face6"]["band"] < 2 * faces[0]["Face6"]["band"]
+    below = [edge for edge in hidden["edges"] if set(edge["along"]["flags"]) == {"carried"}]
+    assert below and all(len(edge["along"]["bands"]) == len(edge["along"]["flags"]) for edge in hidden["edges"])
