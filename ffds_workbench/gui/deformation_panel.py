@@ -40,12 +40,13 @@ class DeformationPanel:
         self._document, self._item = document, item
         self._source: Any = None
         self._faces: tuple[str, ...] = ()
-        self._hint = ""
+        self._hint, self._adding = "", False
         self._read: tuple[tuple[Any, Any], Source, Any] | None = None
         self._worker: running.Worker | None = None
         self._wished = preferences()
         self.form = DeformationForm(scans_of(document), item is not None)
         self._take(item, chosen(), whole)
+        Gui.Selection.clearSelection()
         self._overlay = Overlay(document.Name)
         self._drawing = PreviewDrawing(self._overlay)
         self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
@@ -98,7 +99,9 @@ class DeformationPanel:
             self._source, self._faces = part, ()
         if self.form.picks_frozen:
             self.form.toggle_frozen(faces)
-            QtCore.QTimer.singleShot(0, Gui.Selection.clearSelection)
+        elif faces and self._adding:
+            self._faces = tuple(name for name in dict.fromkeys((*self._faces, *faces))
+                                if name not in self._faces or name not in faces)
         elif faces:
             self._faces = faces
 
@@ -107,12 +110,17 @@ class DeformationPanel:
 
     def addSelection(self, *_: Any) -> None:  # noqa: N802
         """Something was picked in the view or in the tree: read the selection once FreeCAD is done with it."""
+        self._adding = bool(QtWidgets.QApplication.keyboardModifiers() & QtCore.Qt.ControlModifier)
         QtCore.QTimer.singleShot(0, self._selection_changed)
 
     def _selection_changed(self) -> None:
         if not self._watching or self.form.busy:
             return
-        self._pick(chosen())
+        selected = chosen()
+        if not (selected.parts or selected.scans or selected.others or selected.refusal):
+            return
+        self._pick(selected)
+        Gui.Selection.clearSelection()  # what is selected would shine through the preview
         self._show_picked()
         self._preview()
 

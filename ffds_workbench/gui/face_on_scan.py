@@ -38,8 +38,12 @@ class Deviations:
 
     def near(self) -> Deviations:
         """Those that may be the face's own."""
-        size = np.abs(self.after)
-        return self.part(size < max(_FAR, _FAR_MEDIANS * float(np.median(size)))) if len(size) else self
+        return self.part(np.abs(self.after) < farthest_of(self.after))
+
+
+def farthest_of(deviations: Array) -> float:
+    """Distance in mm at which a point is not the part's own, by the deviations (k,) of all."""
+    return max(_FAR, _FAR_MEDIANS * float(np.median(np.abs(deviations)))) if len(deviations) else _FAR
 
 
 class FaceOnScan:

@@ -43,7 +43,7 @@ class Patch:
     Attributes
     ----------
     name : "Face6"
-    lattice : its control lattice before and after, None where a preview has another than the result
+    lattice : its control lattice before and after; None for a whole part, whose lattices would hide it
     points, triangles : the deformed face, (n, 3) in mm and (m, 3)
     outline : its trims, closed polylines, each (k, 3) in mm
     values : (n,) mean deviation of the scan there in mm, NaN without data
@@ -95,7 +95,7 @@ class Preview:
         if self._whole is None:
             self._whole = WholePreview(self._part, self._points)
         found = self._whole.step(settings) if coarse else self._whole.solve(settings, progress)
-        return [_patch(face, deviations, displacement, coverage, not coarse)
+        return [_patch(face, deviations, displacement, coverage, False)
                 for face, deviations, displacement, coverage in found]
 
     def _observed(self, settings: Settings) -> list[str]:

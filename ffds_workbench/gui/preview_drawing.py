@@ -30,7 +30,7 @@ class PreviewDrawing:
         """Draw a part in its own frame, ``frame`` (4, 4) taking it to the document's."""
         if [mesh.triangles is patch.triangles for mesh, patch in zip(self._meshes, patches, strict=False)] != (
                 [True] * max(len(patches), len(self._meshes))):
-            self._meshes = [ColouredMesh(patch.triangles) for patch in patches]
+            self._meshes = [ColouredMesh(patch.triangles, over=False) for patch in patches]
         for mesh, patch in zip(self._meshes, patches, strict=True):
             mesh.update(patch.points, packed_colours(patch.values, limit))
         lattices = [patch.lattice for patch in patches if patch.lattice is not None] if with_lattice else []

@@ -15,7 +15,7 @@ from ..registration.coverage import covered_share
 from ..registration.joint import JointSettings, LiveJoint, register_joint
 from ..registration.splines import SplineSurface
 from ..report.stopwatch import Progress
-from .face_on_scan import Array, Deviations, FaceOnScan
+from .face_on_scan import Array, Deviations, FaceOnScan, farthest_of
 
 _LOOKED_AT = 8000
 """Scan points whose deviations are shown while a control is being moved."""
@@ -78,4 +78,6 @@ def _own(faces: Sequence[FaceOnScan], displacements: Sequence[SplineSurface]) ->
     nearest = np.full(1 + max((int(item.index.max()) for item in found if len(item.index)), default=0), np.inf)
     for item in found:
         nearest[item.index] = np.minimum(nearest[item.index], np.abs(item.after))
-    return [item.part(np.abs(item.after) <= nearest[item.index]).near() for item in found]
+    owned = [item.part(np.abs(item.after) <= nearest[item.index]) for item in found]
+    farthest = farthest_of(np.concatenate([item.after for item in owned]))
+    return [item.part(np.abs(item.after) < farthest) for item in owned]

@@ -126,8 +126,9 @@ class Hands:
         """Click in the 3D view where a point of the document is seen."""
         view = Gui.ActiveDocument.ActiveView
         viewport = view.graphicsView().viewport()
-        x, y = view.getPointOnScreen(FreeCAD.Vector(*point))
-        place = QtCore.QPoint(x, viewport.height() - 1 - y)
+        (x, y), (width, height) = view.getPointOnScreen(FreeCAD.Vector(*point)), view.getSize()
+        place = QtCore.QPoint(round((x + 0.5) / width * viewport.width()),
+                              round((1 - (y + 0.5) / height) * viewport.height()))  # the view's pixels may be smaller
         QtTest.QTest.mouseMove(viewport, place)
         self.wait(200)
         QtTest.QTest.mouseClick(viewport, QtCore.Qt.LeftButton, modifier, place, 10)

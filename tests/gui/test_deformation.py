@@ -90,6 +90,30 @@ def test_the_preview_follows_the_lattice_and_cancel_leaves_nothing(hands, plate_
     assert not plate_document.HasPendingTransaction
 
 
+def test_faces_are_added_with_ctrl_and_frozen_by_picking(hands, plate_document):
+    plate_document.Scan.Visibility = False
+    hands.command(DeformFaces)
+    hands.pick((20, 12, 5.0))
+    assert hands.says("FfdsPart").endswith(" Face6") and not Gui.Selection.getSelection()
+    hands.pick((30, 0, 2.5), QtCore.Qt.ControlModifier)
+    assert "Face6, Face3" in hands.says("FfdsPart")
+    hands.pick((30, 0, 2.5), QtCore.Qt.ControlModifier)
+    assert hands.says("FfdsPart").endswith(" Face6")
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 10)
+    hands.click(hands.find("FfdsMore"))
+    hands.click(hands.find("FfdsPickFrozen"))
+    hands.pick((30, 0, 2.5))
+    assert hands.find("FfdsFreeze").text() == "Face3" and hands.says("FfdsPart").endswith(" Face6")
+    hands.pick((20, 12, 5.0))
+    assert "choose one" in hands.says("FfdsMessageLabel")
+    hands.pick((20, 12, 5.0))
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 10)
+    hands.ok()
+    item = plate_document.AsBuilt
+    assert item.Freeze == [(plate_document.Plate, ("Face3",))] and isinstance(item.Shape.Faces[2].Surface, Part.Plane)
+    assert item.isValid() and top(item.Shape) == pytest.approx(6, abs=2 * TOLERANCE)
+
+
 def test_cancel_in_mid_work_leaves_nothing(hands, plate_document):
     nodes, before = hands.nodes(), names(plate_document)
     Gui.Selection.addSelection(plate_document.Plate)
@@ -259,6 +283,7 @@ def test_pictures_of_the_readme(hands):
     document.Scan.Visibility = True
     Gui.Selection.addSelection(document.Bracket)
     hands.command(DeformWorkpiece)
+    view.setCameraOrientation(FreeCAD.Rotation(35, 0, 55).Q)
     hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 60)
     hands.wait(500)
     hands.until(lambda: not hands.says("FfdsDoing"), 120)
