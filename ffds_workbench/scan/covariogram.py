@@ -87,6 +87,8 @@ def fit(scans: Sequence[Covariogram], size: float, share: float) -> tuple[float,
     """
     distance, covariance, sigma = (np.concatenate([getattr(item, key) for item in scans])
                                    for key in ("distance", "covariance", "sigma"))
+    if not len(distance):
+        return None
     lengths = np.geomspace(0.4 * size, _LONGEST_LENGTH * distance.max(), _LENGTHS)
     blur = size**2 / 6
     shapes = np.exp(-(distance**2) / (2 * (lengths[:, None] ** 2 + blur)))

@@ -16,10 +16,10 @@ PRESETS = {
     "paper": SensorProfile(0.13, 0.0, 0.0, "paper"),
     "line-laser": SensorProfile(0.03, 0.015, 0.5, "line-laser"),
     "structured-light": SensorProfile(0.05, 0.025, 1.5, "structured-light"),
-    "robot-laser": SensorProfile(1.2, 1.0, 4.0, "robot-laser"),
+    "robot-laser": SensorProfile(1.5, 0.0, 0.0, "robot-laser"),
 }
-"""Typical sensors of a kind, for want of a measured profile. "paper": σ as published; "robot-laser": a line laser on a
-robot, whose passes differ by the robot's own accuracy."""
+"""Typical sensors of a kind, for want of a measured profile. "paper": σ as published; "robot-laser": measured on the
+plates of a real weld part, a point every 3 mm, too sparse for its neighbours to share anything."""
 
 _NUMBERS = ("sigma", "sigma_c", "correlation_length")
 
