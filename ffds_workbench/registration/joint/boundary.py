@@ -32,6 +32,8 @@ _FEWEST = 12
 _UNSEEN = 0.15
 _FLOOR = 0.05
 """Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
+_MISSING = 0.3
+"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this weighs less."""
 _HUBER = 2.0
 _DISCARD = 3.0
 _NEIGHBOURS = 4
@@ -148,9 +150,11 @@ def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, othe
     if not good.any():
         return nothing
     sigma = np.hypot(_FLOOR, np.sqrt(_RANK) / per_mm)
-    off = np.abs(offset - _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))) / (_HUBER * sigma)
+    around = _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))
+    off = np.abs(offset - around) / (_HUBER * sigma)
     good &= off < _DISCARD
-    return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * sigma**2), 0.0)
+    missing = 1 + (np.minimum(around, 0.0) / _MISSING) ** 2
+    return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * missing * sigma**2), 0.0)
 
 
 def _across(edges: EdgeSamples, side: Samples, sign: Array, control_points: Array) -> tuple[Array, Array]:
