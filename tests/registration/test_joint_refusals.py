@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the joint solve refuses: every reason by itself, one sentence each, and no result."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+FreeCAD = pytest.importorskip("FreeCAD")
+import Part  # noqa: E402
+
+from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
+from ffds_workbench.brep.workpiece import read  # noqa: E402
+from ffds_workbench.errors import RefusedError  # noqa: E402
+from ffds_workbench.registration.joint import JointSettings, register_joint  # noqa: E402
+from ffds_workbench.registration.joint.problem import make_problem  # noqa: E402
+from ffds_workbench.registration.joint.state import start  # noqa: E402
+from ffds_workbench.registration.joint.summary import refuse_bad  # noqa: E402
+
+SIZE, THICKNESS = (40.0, 30.0), 3.0
+
+
+@pytest.fixture(scope="module")
+def part():
+    return joint_part(read(Part.makeBox(*SIZE, THICKNESS)))
+
+
+@pytest.fixture(scope="module")
+def scan():
+    random = np.random.default_rng(0)
+    return np.column_stack([random.uniform(0, SIZE, (6000, 2)), THICKNESS + random.normal(0, 0.05, 6000)])
+
+
+@pytest.fixture(scope="module")
+def solved(part, scan):
+    """A problem, and a state that nothing is wrong with."""
+    problem = make_problem(part, scan, JointSettings(), {})
+    state = start(problem)
+    count = np.full(problem.distance.size, 5.0)
+    state = replace(state, last_step=0.01, values=replace(state.values, count=count))
+    refuse_bad(problem, state)
+    return problem, state
+
+
+def test_too_few_points(part, scan):
+    with pytest.raises(RefusedError, match="only 49 points"):
+        register_joint(part, scan[:49])
+
+
+def test_no_overlap(part, scan):
+    with pytest.raises(RefusedError, match="align it first"):
+        register_joint(part, scan + [500.0, 0.0, 0.0])
+
+
+def test_a_scan_of_metres(part, scan):
+    with pytest.raises(RefusedError, match="unit|align it first|freeze"):
+        register_joint(part, scan / 1000)
+
+
+def test_everything_frozen(part, scan):
+    frozen = replace(part, frozen=frozenset(range(len(part.faces))))
+    with pytest.raises(RefusedError, match="Every face is frozen"):
+        register_joint(frozen, scan)
+
+
+def test_only_frozen_faces_are_seen(part, scan):
+    top = next(k for k, face in enumerate(part.faces) if face.surface.control_points[..., 2].min() > THICKNESS - 1e-9)
+    with pytest.raises(RefusedError, match="near faces that may move"):
+        register_joint(replace(part, frozen=frozenset([top])), scan)
+
+
+def test_points_that_lie_elsewhere(solved):
+    problem, state = solved
+    few = np.zeros_like(state.values.count)
+    few[0] = 49
+    with pytest.raises(RefusedError, match="Only 49 of 6000 scan points lie near the part"):
+        refuse_bad(problem, replace(state, values=replace(state.values, count=few)))
+
+
+def test_a_displacement_larger_than_the_part(solved):
+    problem, state = solved
+    with pytest.raises(RefusedError, match="80 mm, is larger than the part .50 mm.: align"):
+        refuse_bad(problem, replace(state, control_points=state.control_points + [80.0, 0.0, 0.0]))
+
+
+def test_no_convergence(solved):
+    problem, state = solved
+    with pytest.raises(RefusedError, match="did not converge .the last step was 0.60 mm"):
+        refuse_bad(problem, replace(state, last_step=0.6))
+
+
+def test_a_face_that_folds_over(part, solved):
+    problem, state = solved
+    top = next(k for k, face in enumerate(part.faces) if face.surface.control_points[..., 2].min() > THICKNESS - 1e-9)
+    lattice = problem.lattices.faces[top]
+    folded = state.control_points.copy()
+    own = folded[lattice.first_control : lattice.first_control + np.prod(lattice.shape)].reshape(*lattice.shape, 3)
+    # Every second row of control points 15 mm back and forth along u: farther than the rows are apart.
+    axis = int(np.argmax(np.abs(np.diff(part.faces[top].surface.control_points[:, 0], axis=0)[0])))
+    own[::2, :, axis] += 15.0
+    own[1::2, :, axis] -= 15.0
+    with pytest.raises(RefusedError, match=f"{part.faces[top].name} would fold over"):
+        refuse_bad(problem, replace(state, control_points=folded))

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Shapes that priors must not hold back: a sheet that shears, one that is rolled tightly, and edges in the scan."""
+import numpy as np
+import pytest
+
+FreeCAD = pytest.importorskip("FreeCAD")
+import Part  # noqa: E402
+
+from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
+from ffds_workbench.brep.workpiece import read  # noqa: E402
+from ffds_workbench.registration.joint import register_joint  # noqa: E402
+
+NOISE, DENSITY = 0.1, 12.0
+
+
+def plate(length, width, thickness):
+    return joint_part(read(Part.makeBox(length, width, thickness)))
+
+
+def faces_of(size, generator, *, walls):
+    """Points on the upper and lower side of a box, and on its ends across x where ``walls`` says so."""
+    sides = [(2, 0.0), (2, size[2])] + ([(0, 0.0), (0, size[0])] if walls else [])
+    points = []
+    for axis, value in sides:
+        area = np.prod(np.delete(size, axis))
+        here = generator.uniform(0, size, (int(DENSITY * area), 3))
+        here[:, axis] = value
+        points.append(here)
+    return points
+
+
+def edge_errors(part, result, warp):
+    """Mean distance of every as-built edge from the warped nominal one, across it."""
+    errors = []
+    for nominal, found in zip(part.edges, result.edges, strict=True):
+        truth = warp(nominal.points)
+        along = np.gradient(truth, axis=0)
+        along /= np.linalg.norm(along, axis=1, keepdims=True)
+        off = found.points - truth
+        errors.append(np.linalg.norm(off - (off * along).sum(axis=1, keepdims=True) * along, axis=1).mean())
+    return np.array(errors)
+
+
+def test_walls_of_a_sheet_that_shears():
+    size = np.array([60.0, 40.0, 4.0])
+
+    def warp(points):
+        """Shifted along z by a parabola over x: up to 0.2 rad of slope, with the end walls left upright."""
+        return points + np.column_stack([np.zeros((len(points), 2)), 3.0 * (points[:, 0] / 30 - 1) ** 2])
+
+    generator = np.random.default_rng(0)
+    scan = np.concatenate([warp(side) + NOISE * generator.normal(size=(len(side), 1)) * [[axis == 0, 0, axis == 2]]
+                           for side, axis in zip(faces_of(size, generator, walls=True), (2, 2, 0, 0), strict=True)])
+    part = plate(*size)
+    result = register_joint(part, scan)
+    # A wall has 40 × 4 mm² × 12 = 1900 points: 0.1 √(10/1900) = 0.007 mm; Kirchhoff's normals would be 0.2 mm off.
+    assert edge_errors(part, result, warp).mean() < 0.04
+    assert not result.isometric
+
+
+def test_a_tight_roll_seen_from_both_sides():
+    size, radius = np.array([75.0, 50.0, 2.0]), 80.0
+
+    def warp(points):
+        angle, height = (points[:, 0] - size[0] / 2) / radius, points[:, 2] - size[2] / 2
+        return np.column_stack([size[0] / 2 + (radius - height) * np.sin(angle), points[:, 1],
+                                size[2] / 2 + radius - (radius - height) * np.cos(angle)])
+
+    generator = np.random.default_rng(1)
+    scan = np.concatenate([warp(side) for side in faces_of(size, generator, walls=False)])
+    scan[:, 2] += generator.normal(0, NOISE, len(scan))
+    part = plate(*size)
+    result = register_joint(part, scan)
+    assert result.isometric
+    assert result.thickness[0] == pytest.approx(size[2], abs=0.005)
+    # The ends of the sheet are told by where the scan ends alone, to some 0.05 mm each.
+    assert edge_errors(part, result, warp).mean() < 0.05
+
+
+def test_the_end_of_the_scan_tells_the_edge():
+    size, shift = np.array([60.0, 40.0, 3.0]), np.array([0.6, -0.5, 0.0])
+    generator = np.random.default_rng(2)
+    top = faces_of(size, generator, walls=False)[1] + shift
+    top[:, 2] += generator.normal(0, NOISE, len(top))
+    part = plate(*size)
+    motion = register_joint(part, top).solids[0].T_asbuilt_nominal
+    # Some 130 edge samples of 0.1 mm tell the shift; the prior on the pose (1 mm) leaves 1 % of it.
+    assert motion[:3, 3] == pytest.approx(shift, abs=0.05)
