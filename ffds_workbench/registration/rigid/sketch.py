@@ -20,6 +20,9 @@ _POINTS = 2_000
 _NEIGHBOURS = (14, 40)
 _ROUGH = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
+_SPARSE, _ALONE = 4.0, 2.0
+"""A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
+its neighbours' own are."""
 _SURE = 0.6
 """Cosine below which two neighbours say nothing about each other's side."""
 
@@ -74,10 +77,8 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     """
     pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
     tree = cKDTree(pool)
-    gaps = tree.query(pool[:1000], k=min(9, len(pool)))[0][:, -1]
     chosen = thin(pool, count)
-    near = tree.query(pool[chosen], k=min(9, len(pool)))[0][:, -1]
-    chosen = chosen[near < 6.0 * max(float(np.median(gaps)), 1e-9)]
+    chosen = chosen[_among_others(tree, pool[chosen])]
     points = pool[chosen]
     for neighbours in _NEIGHBOURS:
         distance, index = tree.query(points, k=min(neighbours, len(pool)))
@@ -107,6 +108,27 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
         if not low < probe < high:
             probe = 0.5 * (low + high)
     return chosen
+
+
+def _among_others(tree: cKDTree, points: Array, neighbours: int = 9) -> NDArray[np.bool_]:
+    """Which points lie as dense as the scan does in the median, and as dense as their own neighbours do.
+
+    The second is the local outlier factor (M. Breunig et al., LOF, 2000) in short: a stray point just above a surface
+    has near neighbours, but those have far nearer ones.
+
+    Parameters
+    ----------
+    tree : of the scan
+    points : (n, 3), some of its points: even ones, among which strays are far more frequent than in the scan
+    """
+    neighbours = min(neighbours, tree.n)
+    usual = max(float(np.median(tree.query(tree.data[:1000], k=neighbours)[0][:, -1])), 1e-9)
+    distance, index = tree.query(points, k=neighbours)
+    among = distance[:, -1] < _SPARSE * usual
+    doubtful = np.flatnonzero(among & (distance[:, -1] > usual))
+    theirs = tree.query(tree.data[index[doubtful]], k=neighbours)[0][:, :, -1]
+    among[doubtful] = distance[doubtful, -1] < _ALONE * np.median(theirs, axis=1)
+    return among
 
 
 def _local_planes(neighbourhoods: Array, rounds: int = 2) -> tuple[Array, Array]:
