@@ -44,8 +44,8 @@ def refuse_bad(problem: Problem, state: State) -> None:
     of_face = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
     free = int(np.delete(of_face, list(problem.part.frozen)).sum())
     if free < _FEWEST_USED:
-        raise RefusedError(f"Only {free} scan points lie near faces that may move: freeze fewer faces, or scan the free "
-                           "ones.")
+        raise RefusedError(f"Only {free} scan points lie near faces that may move: freeze fewer faces, or scan the "
+                           "free ones.")
     if not np.isfinite(moved) or moved > size:
         raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({size:.0f} mm): "
                            "align the scan first.")
