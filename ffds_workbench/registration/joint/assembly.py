@@ -81,7 +81,7 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     scalar = weight * problem.bending + problem.coupled + trust.shear * problem.shear
     blocks = (scalar[:, None, None] * np.eye(3) + problem.smooth + trust.dihedral * problem.dihedral
               + (trust.thickness - trust.shear) * problem.thickness)
-    bent = _evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
+    bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     right = (weight * gather(problem, stiffness.bending_load(normal, bent))
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
@@ -89,7 +89,7 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, problem.isometry_weights(trust))
 
 
-def _evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array:
+def evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array:
     """Mean change of curvature of the face that a span belongs to: (spans, 3). A sheet rolled as a whole is smooth."""
     face, area = problem.lattices.face_of_span, problem.stiffness.area
     change = np.einsum("sk,skp->sp", area, problem.stiffness.curvature_change(problem.lattices, control_points, normal))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ..splines import Array
-from .assembly import border_equations, data_equations, shape_equations
+from .assembly import border_equations, data_equations, evenly_bent, shape_equations
 from .boundary import find_borders
 from .cholesky import FrontCholesky
 from .problem import Problem
+from .raster import normals
 from .state import State
 from .trust import costs
 
@@ -25,9 +26,7 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     inverse = state.factor.inverse_blocks()
     prior = shape_equations(problem, state.control_points, 1.0, state.trust).blocks
     told = 3 * problem.lattices.count - float((inverse * prior).sum())
-    cost, trust = costs(problem, state.control_points), state.trust
-    paid = sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust))
-    ratio = paid / max(told, 1.0)
+    ratio = _paid(problem, state) / max(told, 1.0)
     if ratio < _SAME:
         return inverse
     data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values).blocks
@@ -35,3 +34,15 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
                            problem.statistics.noise)
     data = data + border_equations(problem, borders).blocks
     return FrontCholesky(problem.pattern.layout, data + prior / ratio).inverse_blocks()
+
+
+def _paid(problem: Problem, state: State) -> float:
+    """What all priors together cost at the final shape, in chi-square units."""
+    settings, stiffness = problem.settings, problem.stiffness
+    normal = normals(stiffness.places.displaced(problem.lattices, state.control_points, 3), stiffness.places.outward)[0]
+    change = stiffness.curvature_change(problem.lattices, state.control_points, normal)
+    change -= evenly_bent(problem, state.control_points, normal)[:, None, :]
+    bending = float((stiffness.weight * (change**2).sum(axis=2)).sum())
+    cost, trust = costs(problem, state.control_points), state.trust
+    return (bending / (settings.curvature * settings.curvature_length) ** 2
+            + sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust)))
