@@ -37,7 +37,8 @@ _START_UP = 30.0
 _PATIENCE = 20
 """Limits are of processor time; a process is given up after so many times as long."""
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
-_LABEL_BELOW = ("ffd_hsu", "pycpd_outliers", "probreg")
+_LABEL_LEFT = ("robust", "ffds_small")
+_LABEL_BELOW = ("ffds_small", "ffd_hsu", "pycpd_outliers", "probreg")
 _WORKER = Path(__file__).with_name("peer_worker.py")
 
 
@@ -235,8 +236,9 @@ def _plot(folder: Path, rows: Sequence[Row]) -> str:
                 continue
             colour = style.COLOURS.get(row["name"].removesuffix("_small"), style.SOFT)
             axes.loglog(figures["seconds"], figures["true_mean"], "o", color=colour)
+            left, below = row["name"] in _LABEL_LEFT, row["name"] in _LABEL_BELOW
             axes.annotate(row["name"], (figures["seconds"], figures["true_mean"]), textcoords="offset points",
-                          xytext=(5, -11 if row["name"] in _LABEL_BELOW else 5), fontsize=8)
+                          xytext=(-5 if left else 5, -11 if below else 5), ha="right" if left else "left", fontsize=8)
         axes.set(xlabel="seconds", title=f"sheet {case}")
         axes.margins(x=0.3)
     drawing.axes[0].set_ylabel("true mean distance in mm")
