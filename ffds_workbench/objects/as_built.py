@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import FreeCAD
@@ -12,8 +13,9 @@ from ..api.registering import ISOMETRY, METHODS
 from ..api.tuning import STIFFEST
 from ..errors import InputError
 from .feature import HIDDEN, READ_ONLY, Feature, Property
-from .job import Settings, make_job
+from .job import Job, Settings, make_job
 from .lattices import Lattice, draw_lattices
+from .signatures import found_again, signatures
 
 _FIGURES = (("MeanBefore", "deviation_before", "mean"), ("P95Before", "deviation_before", "p95"),
             ("MeanAfter", "deviation_after", "mean"), ("P95After", "deviation_after", "p95"))
@@ -52,6 +54,8 @@ class AsBuilt(Feature):
         _figure("MeanAfter", "Mean distance of the scan from the as-built part"),
         _figure("P95After", "95 % of the scan are nearer than this to the as-built part"),
         Property("Report", "App::PropertyString", "Deviation", "The report as JSON", None, READ_ONLY | HIDDEN),
+        Property("Signatures", "App::PropertyStringList", "As built", "What the named faces looked like", None,
+                 READ_ONLY | HIDDEN),
         Property("LatticeSizes", "App::PropertyIntegerList", "Lattice", "Control points in u and v, face by face", None,
                  READ_ONLY | HIDDEN),
         Property("LatticeNominal", "App::PropertyVectorList", "Lattice", "Control points before", None,
@@ -65,13 +69,14 @@ class AsBuilt(Feature):
         if obj.Source is None or obj.Scan is None:
             missing = "nominal part" if obj.Source is None else "scan"
             raise InputError(f"{obj.Label} has lost its {missing}: choose one in its properties.")
-        job = make_job(obj.Source, obj.Scan, settings_of(obj))
+        job = _with_faces_found_again(obj, make_job(obj.Source, obj.Scan, settings_of(obj)))
         result = job.run()
         obj.Shape = result.shape
         obj.Placement = job.source.placement
         for name, block, figure in _FIGURES:
             setattr(obj, name, result.report[block][figure])
         obj.Report = json.dumps(result.report)
+        obj.Signatures = signatures(job.source.model.shape, (*(job.settings.faces or ()), *job.settings.freeze))
         lattices = draw_lattices(job.source.model.shape, result.registrations)
         obj.LatticeSizes = [count for item in lattices for count in item.nominal.shape[:2]]
         obj.LatticeNominal = _vectors([item.nominal for item in lattices])
@@ -100,12 +105,26 @@ def settings_of(obj: Any) -> Settings:
 
 
 def apply_settings(obj: Any, settings: Settings) -> None:
-    """Write settings into an as-built object."""
+    """Write settings into an as-built object; their faces are those of the nominal part as it is now."""
+    obj.Signatures = []
     obj.Faces = [(obj.Source, settings.faces)] if settings.faces else []
     obj.Freeze = [(obj.Source, settings.freeze)] if settings.freeze else []
     obj.Method, obj.Isometry, obj.SourcePoints = settings.method, settings.isometry, settings.source_points
     obj.Stiffness, obj.Gate = settings.stiffness, settings.gate or 0.0
     obj.ControlPointsU, obj.ControlPointsV = (0, 0) if settings.lattice == "auto" else settings.lattice
+
+
+def _with_faces_found_again(obj: Any, job: Job) -> Job:
+    """The job with the faces that were meant, where the nominal part has got other numbers for them (InputError where
+    they are gone)."""
+    names = found_again(obj.Signatures, job.source.model.shape, job.source.item.Label)
+    if all(old == new for old, new in names.items()):
+        return job
+    faces, freeze = (tuple(names.get(name, name) for name in old)
+                     for old in (job.settings.faces or (), job.settings.freeze))
+    obj.Faces = [(obj.Source, faces)] if faces else []
+    obj.Freeze = [(obj.Source, freeze)] if freeze else []
+    return replace(job, settings=replace(job.settings, faces=faces or None, freeze=freeze))
 
 
 def lattices_of(obj: Any) -> list[Lattice]:

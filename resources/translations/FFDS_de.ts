@@ -157,6 +157,10 @@
       <translation>Was die Teile mitbewegt, wenn es sich bewegt</translation>
     </message>
     <message>
+      <source>What the named faces looked like</source>
+      <translation>Wie die genannten Flächen aussahen</translation>
+    </message>
+    <message>
       <source>What to know before welding</source>
       <translation>Was vor dem Schweißen zu wissen ist</translation>
     </message>

@@ -114,6 +114,30 @@ def test_a_part_in_a_moved_group_gets_its_as_built_one_beside_it(document):
     assert height_at_middle(own) == pytest.approx(20 - 6, abs=NOISE)
 
 
+def test_a_face_is_found_again_when_the_part_gets_other_numbers(document):
+    plate, scan = add_plate(document)
+    corner = document.addObject("Part::Box", "Corner")
+    corner.Length = corner.Width = corner.Height = 3
+    corner.Placement.Base = FreeCAD.Vector(-10, 0, 0)
+    cut = document.addObject("Part::Cut", "Cut")
+    cut.Base, cut.Tool = plate, corner
+    document.recompute()
+    top = next(f"Face{k}" for k, face in enumerate(cut.Shape.Faces, 1) if face.CenterOfMass.z > 4.9)
+    item = actions.make_as_built(cut, scan, faces=[top], lattice=(8, 8))
+    document.openTransaction("other numbers")
+    corner.Placement.Base = FreeCAD.Vector(-1, 38, -1)
+    document.recompute()
+    document.commitTransaction()
+    assert len(cut.Shape.Faces) == 9 and item.isValid()
+    found = cut.Shape.getElement(item.Faces[0][1][0])
+    assert found.CenterOfMass.z == pytest.approx(5) and len(item.Faces[0][1]) == 1
+    assert item.Faces[0][1][0] != top, "the numbers did change"
+    assert height_at_middle(item.Shape) == pytest.approx(20 - 6, abs=NOISE)
+    corner.Placement.Base, corner.Length, corner.Width = FreeCAD.Vector(-1, -1, 3), 80, 80
+    document.recompute()
+    assert not item.isValid() and "choose the faces anew" in item.getStatusString()
+
+
 def test_a_link_is_a_part_of_its_own(document):
     plate, scan = add_plate(document)
     link = document.addObject("App::Link", "Link")
