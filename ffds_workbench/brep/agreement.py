@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
+from scipy.spatial import cKDTree
 
 from ..registration.splines import Array, SplineSurface
 from .cutoff import step
@@ -117,8 +117,10 @@ def _spread_out(points: Array, values: Array, radius: float) -> Array:
     places = points[np.minimum(starts + 4, len(points) - 1)][largest > 0.0]
     if len(places) == 0:
         return values
-    fading = largest[largest > 0.0] * np.maximum(1.0 - cdist(points, places) / radius, 0.0)
-    return np.maximum(values, fading.max(axis=1))
+    pairs = cKDTree(points).sparse_distance_matrix(cKDTree(places), radius, output_type="ndarray")
+    spread = values.copy()
+    np.maximum.at(spread, pairs["i"], largest[largest > 0.0][pairs["j"]] * (1.0 - pairs["v"] / radius))
+    return spread
 
 
 def _side(workpiece: Workpiece, face: int, displacement: SplineSurface, samples: EdgeSamples) -> Side:
