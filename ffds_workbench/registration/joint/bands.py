@@ -11,9 +11,9 @@ from .problem import Problem
 from .samples import Samples
 
 _TWO_SIDED = 1.96
-_UNSEEN, _FAR = 3.56, 2.0
+_UNSEEN, _FAR = 4.30, 2.0
 """The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
-that the shape strays as Student's t with few (2.5) degrees of freedom does."""
+that the shape strays as Student's t with two degrees of freedom does."""
 _LEAK, _LEAK_ZONE = 0.08, 2.0
 """Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
 reaches into the face."""
