@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 from numpy.typing import NDArray
@@ -73,9 +74,11 @@ class DeviationPanel:
             widget.currentIndexChanged.connect(self._show)
         for widget in (self._limit, self._tolerance):
             widget.valueChanged.connect(self._show)
-        self._view = Gui.getDocument(scan.Document.Name).ActiveView
-        self._overlay = Overlay(scan.Document.Name)
+        self._document = scan.Document.Name
+        self._view = Gui.getDocument(self._document).ActiveView
+        self._overlay = Overlay(self._document)
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
+        self.form.destroyed.connect(self._let_go)
         self._show()
 
     def _show(self, *_: Any) -> None:
@@ -118,11 +121,17 @@ class DeviationPanel:
 
     def reject(self) -> bool:
         """Close: everything drawn goes away."""
-        try:
-            self._view.removeEventCallback("SoLocation2Event", self._callback)
-        finally:
-            self._overlay.remove()
+        self._let_go()
         return True
+
+    def _let_go(self, *_: Any) -> None:
+        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
+        if self._callback is None:
+            return
+        callback, self._callback = self._callback, None
+        if self._document in FreeCAD.listDocuments():  # a view that was closed crashes when it is asked
+            self._view.removeEventCallback("SoLocation2Event", callback)
+        self._overlay.remove()
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """Close."""

@@ -22,7 +22,8 @@ class Overlay:
     """One group of nodes in the view that was active when it was made; ``remove`` it in a ``finally``."""
 
     def __init__(self, document_name: str) -> None:
-        self._view = Gui.getDocument(document_name).ActiveView
+        # A view that was closed crashes when it is asked for its graph; the graph itself lives on while it is held.
+        self._graph = Gui.getDocument(document_name).ActiveView.getSceneGraph()
         self._covered: list[tuple[Any, Any, Any]] = []
         self._root = coin.SoSeparator()
         self._root.addChild(_unpickable())
@@ -30,7 +31,7 @@ class Overlay:
         self._root.addChild(self._frame)
         self._content = coin.SoGroup()
         self._root.addChild(self._content)
-        self._view.getSceneGraph().addChild(self._root)
+        self._graph.addChild(self._root)
 
     def show(self, nodes: Sequence[Any], frame: Array | None = None) -> None:
         """Show these nodes instead of the earlier ones; ``frame`` (4, 4) takes their coordinates to the document's."""
@@ -68,11 +69,9 @@ class Overlay:
 
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
-        try:
-            self._uncover()
-            self._view.getSceneGraph().removeChild(self._root)
-        except (ReferenceError, RuntimeError):
-            return
+        self._uncover()
+        if self._graph.findChild(self._root) >= 0:
+            self._graph.removeChild(self._root)
 
 
 def foremost(view: Any, place: tuple[int, int], points: Array, pixels: int = 6) -> int | None:

@@ -181,6 +181,21 @@ def test_the_deviation_map_comes_and_goes(hands, plate_document):
     assert hands.nodes() == nodes and names(plate_document) == before
 
 
+@pytest.mark.parametrize("command", [DeformFaces, ShowDeviation])
+def test_a_panel_whose_document_is_closed_lets_go(hands, plate_document, command):
+    Gui.Selection.addSelection(plate_document.Plate, "Face6")
+    hands.command(command)
+    hands.until(lambda: hands.says("FfdsFigures"), 30)
+    FreeCAD.closeDocument(plate_document.Name)
+    hands.wait(300)
+    if Gui.Control.activeDialog():
+        Gui.Control.closeDialog()
+    hands.wait(300)
+    FreeCAD.newDocument("Next")
+    Gui.Selection.clearSelection()
+    hands.wait(200)
+
+
 def test_a_scan_in_metres_is_asked_about(hands, plate_document, tmp_path, monkeypatch):
     import numpy as np
 
