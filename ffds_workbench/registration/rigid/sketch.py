@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ..splines import Array
 
 _POOL = 40_000
-_POINTS = 2_000
+_POINTS, _FINER = 2_000, 4
 _NEIGHBOURS = (14, 40)
 _ROUGH = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
@@ -65,7 +65,8 @@ class Plane:
         return points @ self.normal - self.offset
 
 
-def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS, pool_size: int = _POOL) -> Sketch:
+def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS, pool_size: int = _POOL,
+              finer: int = _FINER) -> Sketch:
     """Even points with normals from a random part of the scan; what stands alone is dropped.
 
     Parameters
@@ -74,10 +75,11 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     generator : random choice of the points
     count : how many points to aim at
     pool_size : how many points of the scan to look at
+    finer : so many times as many points tell the sides of the surface: far ones link what is not one surface
     """
     pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
     tree = cKDTree(pool)
-    chosen = thin(pool, count)
+    chosen = thin(pool, finer * count)
     chosen = chosen[_among_others(tree, pool[chosen])]
     points = pool[chosen]
     for neighbours in _NEIGHBOURS:
@@ -86,7 +88,8 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
         if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) < _ROUGH:
             break
     normals, piece = _turn_to_one_side(points, normals)
-    return Sketch(points, normals, piece, float(np.median(roughness)), pool)
+    even = thin(points, count)
+    return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool)
 
 
 def thin(points: Array, count: int) -> NDArray[np.intp]:
