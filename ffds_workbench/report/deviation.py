@@ -61,7 +61,10 @@ def measure(faces: Sequence[FaceGeometry], points: Array, reach: float) -> list[
     height = np.full(len(points), np.inf)
     normal = np.zeros((len(points), 3))
     for number, face in enumerate(faces):
-        index, heights, normals = _over_face(make_raster(face), points, reach)
+        raster = make_raster(face)
+        near = _within(raster, points, np.minimum(np.abs(height), reach))
+        index, heights, normals = _over_face(raster, points[near], reach)
+        index = near[index]
         nearer = np.abs(heights) < np.abs(height[index])
         index = index[nearer]
         owner[index], height[index], normal[index] = number, heights[nearer], normals[nearer]
@@ -79,6 +82,16 @@ def measure_again(face: FaceGeometry, points: Array, earlier: FaceDeviation, rea
     """
     index, heights, normals = _over_face(make_raster(face), points[earlier.points], reach, trimmed=False)
     return FaceDeviation(earlier.name, earlier.points[index], heights, normals)
+
+
+def _within(raster: Raster, points: Array, reach: Array) -> Index:
+    """The points that can have a foot point on the trimmed face within their own ``reach``, (n,) in mm."""
+    cells = raster.position[raster.inside]
+    if not len(cells):
+        return np.zeros(0, dtype=np.intp)
+    cell = np.linalg.norm(np.abs(raster.tangent_u).max(axis=0) + np.abs(raster.tangent_v).max(axis=0))
+    beyond = np.maximum(np.maximum(cells.min(axis=0) - points, points - cells.max(axis=0)), 0.0)
+    return np.flatnonzero(np.linalg.norm(beyond, axis=1) <= reach + cell)
 
 
 def _over_face(raster: Raster, points: Array, reach: float, trimmed: bool = True) -> tuple[Index, Array, Array]:
