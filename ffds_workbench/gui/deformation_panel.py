@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 
@@ -37,7 +38,7 @@ class DeformationPanel:
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, document: Any, item: Any, whole: bool) -> None:
-        self._document, self._item = document, item
+        self._document, self._item, self._name = document, item, document.Name
         self._source: Any = None
         self._faces: tuple[str, ...] = ()
         self._hint, self._adding = "", False
@@ -105,6 +106,12 @@ class DeformationPanel:
         elif faces:
             self._faces = faces
 
+    def _alive(self) -> bool:
+        """Whether the panel is open on a document that is; it closes itself when the document was closed."""
+        if self._name not in FreeCAD.listDocuments():
+            self._close()
+        return self._watching
+
     def _show_picked(self) -> None:
         self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
 
@@ -114,7 +121,7 @@ class DeformationPanel:
         QtCore.QTimer.singleShot(0, self._selection_changed)
 
     def _selection_changed(self) -> None:
-        if not self._watching or self.form.busy:
+        if not self._alive() or self.form.busy:
             return
         selected = chosen()
         if not (selected.parts or selected.scans or selected.others or selected.refusal):
@@ -142,7 +149,7 @@ class DeformationPanel:
 
     def _preview(self) -> None:
         """Preview what is set now."""
-        if not self._watching or self.form.busy:
+        if not self._alive() or self.form.busy:
             return
         try:
             job = self._job()
@@ -161,14 +168,14 @@ class DeformationPanel:
     def _draw_nothing(self, failure: BaseException) -> None:
         if not isinstance(failure, FfdsError):
             raise failure
-        if not self._watching:
+        if not self._alive():
             return
         self._overlay.show([])
         self._overlay.cover()
         self.form.show_figures(None, self._hint or str(failure))
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
-        if not self._watching:
+        if not self._alive():
             return
         limit = good_limit(np.concatenate([patch.before for patch in patches]))
         self._overlay.cover(*self._covered(job))
@@ -184,7 +191,7 @@ class DeformationPanel:
 
     def accept(self) -> bool:
         """OK: compute in the background, then write the document in one undo step and close."""
-        if self.form.busy:
+        if not self._alive() or self.form.busy:
             return False
         self._read = None
         try:
