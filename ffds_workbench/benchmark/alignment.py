@@ -81,6 +81,7 @@ class Try:
 
 def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
     """Measure; writes alignment.json, .md and .html into the folder and returns the tables as Markdown."""
+    folder.mkdir(parents=True, exist_ok=True)
     trials = list(_trials(progress))
     rows, data = [], {}
     for condition in _CONDITIONS:
