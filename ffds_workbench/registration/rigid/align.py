@@ -61,8 +61,8 @@ _CERTAIN = 0.95
 _ROTATIONS = 500
 _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
 """Turns from the present pose that a fine alignment looks at, and the largest in rad."""
-_DEFORMED = 0.002
-"""Share of the part's size that a fifth of the points must lie off the part for it to count as deformed."""
+_WIDE, _DEFORMED = 0.12, 0.002
+"""Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
 _FEWEST = 50
 _MAJOR = 0.1
 """Share of the points from which a piece of surface has a sign of its own in the search."""
@@ -297,9 +297,11 @@ def _verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, si
     if not is_rough(target, sketch):
         mended, turned = _mended(target, sketch, pose, normals, max(_ON * target.size, 4.0 * sketch.noise))
         if 0.0 < turned < _TURNED:
-            mended = mended @ pose[:3, :3]
-            pose = refine(target.light, sketch.points, pose, (0.04 * target.size,), 8, mended)
-            normals = mended @ pose[:3, :3].T
+            closer = refine(target.light, sketch.points, pose, (0.04 * target.size,), 8, mended @ pose[:3, :3])
+            mended = mended @ pose[:3, :3] @ closer[:3, :3].T
+            # of a deformed sheet some points lie nearer to the far side
+            if not _is_deformed(target, sketch, closer, mended):
+                pose, normals = closer, mended
     return Verified(pose, examine(target.light, sketch, pose, normals, table), normals)
 
 
@@ -325,16 +327,21 @@ def _polish(target: Target, sketch: Sketch, found: Verified) -> Array:
     if is_rough(target, sketch):
         gate = max(0.02 * target.size, 3.0 * sketch.noise)
         return refine(target, sketch.pool[thin(sketch.pool, _POLISH_POINTS)], found.pose, (2.0 * gate, gate), 15)
-    reach = 0.12 * target.size
-    moved = apply(found.pose, sketch.points)
-    distance, nearest = target.nearest(moved, found.normals, reach)
-    height = target.heights(moved, nearest)[0][np.isfinite(distance)]
-    if len(height) and np.quantile(np.abs(height), 0.8) < max(_DEFORMED * target.size, 3.0 * sketch.noise):
+    reach = _WIDE * target.size
+    if not _is_deformed(target, sketch, found.pose, found.normals):
         return refine(target, sketch.pool, found.pose, (0.02 * target.size,), 6)
     points = sketch.pool[thin(sketch.pool, _POLISH_POINTS)]
     normals = (found.normals @ found.pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
     pose = refine(target, points, found.pose, (reach,), 8, normals)
     return settle(target, points, pose, normals, reach)
+
+
+def _is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:
+    """Whether more than a fifth of the points lie off the part, with normals (n, 3) in the model's frame."""
+    moved = apply(pose, sketch.points)
+    distance, nearest = target.nearest(moved, normals, _WIDE * target.size)
+    height = target.heights(moved, nearest)[0][np.isfinite(distance)]
+    return not len(height) or bool(np.quantile(np.abs(height), 0.8) >= max(_DEFORMED * target.size, 3.0 * sketch.noise))
 
 
 def _answer(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
