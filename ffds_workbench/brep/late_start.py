@@ -18,7 +18,7 @@ from .curve_fit import fit_curve
 from .curves import print_curve
 from .edges import PlacedCurve, Trace
 
-_MORE, _LATEST = 1.15, 9.5e-5
+_MORE, _LATEST = 1.3, 9.5e-5
 """How much more, and the latest start in mm; an edge that gapes more does so in the nominal."""
 _SPAN, _LONGEST_SPAN = 1e-3, 0.2
 """Part of the edge along which the pcurve catches up; more where the edge is short, but no more than this."""

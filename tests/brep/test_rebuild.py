@@ -3,7 +3,7 @@
 
 Tolerances: a face is within 2e-6 mm of nominal + displacement in either direction, an edge within half of that of the
 mean of its faces or on one of them, so edges gape by at most about 5e-6 mm; 1e-5 is the line here. Pcurves start late
-by 1.15 of the gap and what the start is off already, so along edges it is twice that, and twice what the nominal gapes.
+by 1.3 of the gap and what the start is off already, so along edges it is twice that, and twice what the nominal gapes.
 The truth is the analytic displacement of points that FreeCAD gives on the nominal.
 """
 from __future__ import annotations
