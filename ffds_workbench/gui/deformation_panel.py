@@ -263,4 +263,3 @@ def _arguments(settings: Settings) -> str:
               for name in ("freeze", "method", "lattice", "source_points", "isometry", "stiffness", "gate")
               if getattr(settings, name) != getattr(plain, name)]
     return ", ".join(shown)
-

@@ -170,7 +170,6 @@ class Target:
         height = (flat - 0.5 * np.einsum("ni,ni->n", slope, along)) / length
         return height, normal / length[:, None]
 
-
     @cached_property
     def _beside_rim(self) -> NDArray[np.bool_]:
         """Which samples are the nearest ones to something that sticks out beyond a rim."""
