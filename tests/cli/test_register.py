@@ -123,10 +123,14 @@ def test_a_full_disk_leaves_the_earlier_file(ffds, plate, tmp_path, suffix):
 
 
 def test_an_interruption_leaves_nothing(tmp_path):
-    """The whole bracket takes longer than three seconds anywhere: the signal meets the work, not the start."""
+    """The whole bracket takes longer than three seconds anywhere: the signal meets the work, not the start.
+
+    Tests in the background of a shell inherit from it that the signal is ignored.
+    """
     example = ROOT / "resources" / "examples"
     command = [ROOT / "ffds", "register", example / "bracket.step", example / "bracket_scan.ply", "--out", "out.step"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     time.sleep(3.0)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
