@@ -171,6 +171,12 @@ class Hands:
         return sum(node.getNumChildren() if node.getTypeId().getName() == "Group" else 1 for node in top)
 
 
+def _task_dock():
+    """Where the task panels are: the combo view, or in FreeCAD 1.0 a dock of their own."""
+    window = Gui.getMainWindow()
+    return window.findChild(QtWidgets.QDockWidget, "Combo View") or window.findChild(QtWidgets.QDockWidget, "Tasks")
+
+
 @pytest.fixture
 def hands(monkeypatch):
     """Hands in an open workbench; afterwards all documents are closed and the Report view must hold no error."""
@@ -179,8 +185,8 @@ def hands(monkeypatch):
     Gui.getMainWindow().showMaximized()
     Gui.activateWorkbench("FFDSWorkbench")
     before = used.report()
-    used.until(lambda: Gui.getMainWindow().findChild(QtWidgets.QDockWidget, "Combo View"), 5)
-    Gui.getMainWindow().findChild(QtWidgets.QDockWidget, "Combo View").show()
+    used.until(_task_dock, 5)
+    _task_dock().show()
     yield used
     if Gui.Control.activeDialog():
         Gui.Control.closeDialog()
