@@ -24,7 +24,7 @@ class FFDSWorkbench(Gui.Workbench):
         self.__class__.MenuText = "FFDS"
         self.__class__.ToolTip = FreeCAD.Qt.translate("Workbench", "Deform a CAD model to a scan; its topology stays")
 
-    def Initialize(self):  # noqa: N802
+    def Initialize(self):
         """Called once, when the workbench is first opened."""
         from ffds_workbench.gui import commands
 
@@ -32,13 +32,13 @@ class FFDSWorkbench(Gui.Workbench):
         self.appendToolbar("FFDS", commands.TOOLBAR)
         self.appendMenu("FFDS", commands.TOOLBAR)
 
-    def ContextMenu(self, recipient):  # noqa: N802
+    def ContextMenu(self, recipient):
         """Called when the context menu of the 3D view or the tree opens."""
         from ffds_workbench.gui import commands
 
         self.appendContextMenu("FFDS", commands.CONTEXT)
 
-    def GetClassName(self):  # noqa: N802
+    def GetClassName(self):
         """The kind of workbench FreeCAD makes of this class."""
         return "Gui::PythonWorkbench"
 

@@ -21,26 +21,24 @@ from .. import _freecad
 
 _freecad.activate()
 
-import FreeCAD  # noqa: E402, F401 (Part needs FreeCAD to be loaded first)
-
-from ..brep.files import Model  # noqa: E402
-from ..brep.simulation import Simulation  # noqa: E402
-from ..errors import FfdsError, InputError, RefusedError  # noqa: E402
-from ..registration.joint import SensorProfile  # noqa: E402
-from ..scan.cloud import PointCloud  # noqa: E402
-from ..scan.sensor import SensorSettings, View  # noqa: E402
-from ..seams.carry import carry  # noqa: E402
-from ..seams.measured import SeamLimits  # noqa: E402
-from ..seams.plan import check_seam_outputs, plan_seams, write_seams  # noqa: E402
-from ..seams.programs.moves import RobotSettings, read_frame_choice  # noqa: E402
-from ..seams.settings import SeamSettings  # noqa: E402
-from .aligning import AlignedScan, align_scan, write_alignment  # noqa: E402
-from .deviating import Deviation, deviation  # noqa: E402
-from .inputs import read_model, read_scan  # noqa: E402
-from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation  # noqa: E402
-from .registering import Result, register  # noqa: E402
-from .sensors import measure_sensor, write_sensor  # noqa: E402
-from .simulating import simulate  # noqa: E402
+from ..brep.files import Model
+from ..brep.simulation import Simulation
+from ..errors import FfdsError, InputError, RefusedError
+from ..registration.joint import SensorProfile
+from ..scan.cloud import PointCloud
+from ..scan.sensor import SensorSettings, View
+from ..seams.carry import carry
+from ..seams.measured import SeamLimits
+from ..seams.plan import check_seam_outputs, plan_seams, write_seams
+from ..seams.programs.moves import RobotSettings, read_frame_choice
+from ..seams.settings import SeamSettings
+from .aligning import AlignedScan, align_scan, write_alignment
+from .deviating import Deviation, deviation
+from .inputs import read_model, read_scan
+from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation
+from .registering import Result, register
+from .sensors import measure_sensor, write_sensor
+from .simulating import simulate
 
 __all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result",
            "RobotSettings", "SeamLimits", "SeamSettings", "SensorProfile", "SensorSettings", "Simulation", "View",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +19,7 @@ from ..errors import InputError
 from ..registration.joint import JointFace, JointRegistration, SensorProfile
 from ..registration.result import FaceRegistration
 from ..report import record, table
-from ..report.certificate import Certificate, boolean_checks, certify
+from ..report.certificate import BooleanChecks, Certificate, certify
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
@@ -54,7 +53,7 @@ class Result:
     joint : the registration of the whole part, where all faces were registered together
     before, after : deviations of the same scan points from the nominal and from the as-built faces
     topology : the certificate before the check for Boolean operations has ended
-    checks : its errors, nominal and as-built, when it has
+    checks : that of the nominal and of the as-built shape
     figures : the JSON report but for the topology
     """
 
@@ -65,14 +64,14 @@ class Result:
     before: tuple[FaceDeviation, ...]
     after: tuple[FaceDeviation, ...]
     topology: Certificate
-    checks: Future[tuple[int | None, ...]]
+    checks: BooleanChecks
     joint: JointRegistration | None
     figures: dict[str, Any]
 
     @cached_property
     def certificate(self) -> Certificate:
         """Topology before and after; waits for the check for Boolean operations."""
-        before, after = self.checks.result()
+        before, after = self.checks.errors()
         return Certificate(replace(self.topology.before, boolean_check=before),
                            replace(self.topology.after, boolean_check=after))
 
@@ -137,9 +136,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
         found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
-    background = ThreadPoolExecutor(1)
-    checks = background.submit(boolean_checks, (nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
-    background.shutdown(wait=False)
+    checks = BooleanChecks((nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
     with watch.stage("certify", "Checking the topology"):
         certificate = certify(nominal.shape, shape, None)
         certificate.enforce()
@@ -176,8 +173,8 @@ def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None
 
 
 def _figures(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
-            after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch,
-            sensor: SensorProfile | None) -> dict[str, Any]:
+             after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch,
+             sensor: SensorProfile | None) -> dict[str, Any]:
     names = [face.name for face in part.faces]
     moved = [names[index] for index in found.displacements]
     if found.joint is None:

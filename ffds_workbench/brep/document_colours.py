@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
 import zipfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,23 +13,24 @@ Colour = tuple[float, float, float, float]
 """Red, green, blue and transparency, 0…1, as FreeCAD's DiffuseColor has them."""
 
 _GUI = "GuiDocument.xml"
-_TEMPLATE = """<?xml version='1.0' encoding='utf-8'?>
+_DOCUMENT = """<?xml version='1.0' encoding='utf-8'?>
 <Document SchemaVersion="1">
-    <ViewProviderData Count="1">
+    <ViewProviderData Count="{count}">{providers}
+    </ViewProviderData>
+    <Camera settings=""/>
+</Document>
+"""
+_PROVIDER = """
         <ViewProvider name="{name}" expanded="0">
             <Properties Count="{count}" TransientCount="0">{colours}
                 <Property name="Visibility" type="App::PropertyBool" status="1">
                     <Bool value="true"/>
                 </Property>
             </Properties>
-        </ViewProvider>
-    </ViewProviderData>
-    <Camera settings=""/>
-</Document>
-"""
+        </ViewProvider>"""
 _COLOURS = """
                 <Property name="DiffuseColor" type="App::PropertyColorList" status="1">
-                    <ColorList file="DiffuseColor"/>
+                    <ColorList file="{file}"/>
                 </Property>"""
 
 
@@ -50,15 +52,31 @@ def read(path: Path, name: str) -> tuple[Colour, ...]:
     return tuple(tuple(row) for row in (channels / 255.0).tolist())
 
 
-def add_view(path: Path, name: str, colours: tuple[Colour, ...]) -> None:
-    """Give the object ``name`` of a document without view data its face colours, if any, and make it visible.
+def add_views(path: Path, colours: Mapping[str, Sequence[Colour]]) -> None:
+    """Give objects of a document without view data their face colours, if any, and make them visible.
 
     What a file without view data holds, FreeCAD's window opens hidden.
+
+    Parameters
+    ----------
+    path : the document's file
+    colours : by object name, one per face or none
     """
-    channels = np.rint(np.clip(np.reshape(colours, (-1, 4)), 0, 1) * 255).astype(np.uint32)
-    packed = (channels << np.array([24, 16, 8, 0], dtype=np.uint32)).sum(axis=1, dtype=np.uint32)
+    providers = "".join(_PROVIDER.format(name=name, count=2 if faces else 1,
+                                         colours=_COLOURS.format(file=_file(name)) if faces else "")
+                        for name, faces in colours.items())
     with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
-        shown = {"count": 2, "colours": _COLOURS} if colours else {"count": 1, "colours": ""}
-        archive.writestr(_GUI, _TEMPLATE.format(name=name, **shown))
-        if colours:
-            archive.writestr("DiffuseColor", np.uint32(len(packed)).tobytes() + packed.astype("<u4").tobytes())
+        archive.writestr(_GUI, _DOCUMENT.format(count=len(colours), providers=providers))
+        for name, faces in colours.items():  # FreeCAD looks for these after the document that names them
+            if faces:
+                archive.writestr(_file(name), _packed(faces))
+
+
+def _file(name: str) -> str:
+    return f"{name}DiffuseColor"
+
+
+def _packed(colours: Sequence[Colour]) -> bytes:
+    channels = np.rint(np.clip(colours, 0, 1) * 255).astype("<u4")
+    packed = (channels << np.array([24, 16, 8, 0], dtype=np.uint32)).sum(axis=1)
+    return np.concatenate([[len(packed)], packed]).astype("<u4").tobytes()

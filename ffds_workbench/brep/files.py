@@ -240,7 +240,7 @@ def _write_document(model: Model, path: Path) -> None:
     if not zipfile.is_zipfile(path):
         raise RefusedError("The document could not be written whole: is the disk full?")
     if view is None:
-        document_colours.add_view(path, name, model.decoration.colours)
+        document_colours.add_views(path, {name: model.decoration.colours})
     with zipfile.ZipFile(path) as archive:
         if archive.testzip() is not None:
             raise RefusedError("The document could not be written whole: is the disk full?")

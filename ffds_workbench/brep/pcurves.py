@@ -18,6 +18,7 @@ from .text import BrepText, Curve3d, CurveOnSurface, EdgeCurves, FaceSurface
 
 _PLANE_TOLERANCE = 5e-7
 """Largest change (mm in a plane) of a pcurve that has to become a cubic."""
+_CIRCLE = "2"
 
 
 @dataclass(frozen=True)
@@ -111,13 +112,20 @@ class PcurveReader:
 
 
 def _allowed(curve: Curve, first: float, last: float) -> Pcurve:
-    """The curve itself where a B-spline surface may carry it: a line, circle or clamped spline. Else a cubic."""
-    if isinstance(curve, Line) or (isinstance(curve, Conic) and curve.kind == "2" and
-                                   np.linalg.det([curve.axis_x, curve.axis_y]) > 0):
-        return Pcurve(curve, first, last, print_curve(curve))
-    if isinstance(curve, Spline) and not curve.periodic:
-        return Pcurve(curve, first, last, print_curve(curve))
-    return _cubic(curve, first, last, curve.breaks())
+    """The curve itself where a B-spline surface may carry it, else a cubic.
+
+    Lines, circles and clamped splines may stay. A left-handed circle may not: STEP has none.
+    """
+    match curve:
+        case Line():
+            stays = True
+        case Conic():
+            stays = curve.kind == _CIRCLE and np.linalg.det([curve.axis_x, curve.axis_y]) > 0
+        case Spline():
+            stays = not curve.periodic
+        case _:
+            stays = False
+    return Pcurve(curve, first, last, print_curve(curve)) if stays else _cubic(curve, first, last, curve.breaks())
 
 
 def _cubic(f: Curve, first: float, last: float, breaks: np.ndarray) -> Pcurve:

@@ -15,7 +15,7 @@ import Part
 
 from ..errors import RefusedError
 from ..registration.splines import Array, SplineSurface
-from .curves import read_curve
+from .curves import Spline, read_curve
 from .displacement import FaceDisplacement
 from .edges import PlacedCurve, Trace, edge_curve, largest_gap
 from .folding import folded
@@ -154,30 +154,33 @@ class _Geometry:
             place = product(self._instances.edges[edge].place, self._locations.chain(item.location))
             curve = PlacedCurve(read_curve(self._brep.curves_3d[item.curve - 1], 3), self._locations.matrix(place),
                                 item.first, item.last)
-            return NewEdge(None, max(old.tolerance, self._covering(edge, curve)))
+            return self._new_edge(edge, None, curve)
         if not old.same_parameter:
             raise RefusedError(f"Edge{edge + 1} and its faces run at different parameters: repair the shape first.")
         span = item or self._uses[edge][0][1].pcurves[0]
         closed = len({vertex for vertex, _ in self._instances.edge_ends[edge]}) == 1
         new = edge_curve(traces, span.first, span.last, closed, self._tolerance)
-        curve = PlacedCurve(new, np.eye(4), span.first, span.last)
-        return NewEdge(new, max(old.tolerance, self._covering(edge, curve)))
+        return self._new_edge(edge, new, PlacedCurve(new, np.eye(4), span.first, span.last))
 
-    def _covering(self, edge: int, curve: PlacedCurve) -> float:
+    def _new_edge(self, edge: int, new: Spline | None, curve: PlacedCurve) -> NewEdge:
+        """The edge with a tolerance that covers how far its faces are from its curve; keeps both for `start_late`."""
         gap = largest_gap(curve, self._traces(edge))
         self._gaps[edge] = curve, gap
-        return _covering(gap)
+        return NewEdge(new, max(self._curves(edge).tolerance, _covering(gap)))
 
     def start_late(self, edges: Mapping[int, NewEdge], vertices: Mapping[int, NewVertex]
                    ) -> tuple[dict[int, NewEdge], dict[int, NewVertex]]:
         """The edges and vertices with tolerances for the pcurves that start late (see `late_start`), one per edge."""
         edges, vertices = dict(edges), dict(vertices)
         for edge, (curve, gap) in self._gaps.items():
-            start = next((vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"), -1)
-            later = self._later(edge, curve, gap, self._point(start, vertices)) if gap > _EXACT and start >= 0 else None
+            starts = [vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"]
+            if gap <= _EXACT or not starts:
+                continue
+            start = self._point(starts[0]) if vertices[starts[0]].point is None else vertices[starts[0]].point
+            later = self._later(edge, curve, gap, start)
             if later is None:
                 continue
-            reach = float(np.linalg.norm(later.at(np.zeros(1)) - self._point(start, vertices)))
+            reach = float(np.linalg.norm(later.at(np.zeros(1)) - start))
             least = _covering(largest_gap(curve, [later]))
             edges[edge] = replace(edges[edge], tolerance=max(edges[edge].tolerance, least))
             for vertex, _ in self._instances.edge_ends[edge]:
@@ -195,11 +198,8 @@ class _Geometry:
                 return later
         return None
 
-    def _point(self, vertex: int, vertices: Mapping[int, NewVertex]) -> Array:
-        """Where a vertex is, in world coordinates."""
-        point = vertices[vertex].point
-        if point is not None:
-            return point
+    def _point(self, vertex: int) -> Array:
+        """Where a vertex of the workpiece is, in world coordinates."""
         instance = self._instances.vertices[vertex]
         matrix = self._locations.matrix(instance.place)
         return matrix[:3, :3] @ np.array(self._brep.shapes[instance.shape].geometry.point) + matrix[:3, 3]
@@ -237,14 +237,9 @@ class _Geometry:
                 for vertex, points in ends.items()}
 
     def _vertex(self, vertex: int, ends: Array, deciding: Array, least: float, stays: bool) -> NewVertex:
-        instance = self._instances.vertices[vertex]
-        old = self._brep.shapes[instance.shape].geometry
+        old = self._brep.shapes[self._instances.vertices[vertex].shape].geometry
         assert isinstance(old, VertexPoint)
-        if stays:
-            matrix = self._locations.matrix(instance.place)
-            point = matrix[:3, :3] @ np.array(old.point) + matrix[:3, 3]
-        else:
-            point = deciding.mean(axis=0)
+        point = self._point(vertex) if stays else deciding.mean(axis=0)
         distance = float(np.linalg.norm(ends - point, axis=1).max())
         tolerance = max(old.tolerance, distance + min(0.05 * distance, 3e-5) + 2e-8, least)
         return NewVertex(None if stays else point, tolerance)

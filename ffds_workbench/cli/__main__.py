@@ -7,5 +7,5 @@ try:
 
     sys.exit(main())
 except KeyboardInterrupt:
-    print("ffds: Interrupted, nothing was written.", file=sys.stderr)
+    print("ffds: Interrupted; nothing half-written is left.", file=sys.stderr)
     sys.exit(130)

@@ -67,7 +67,7 @@ def _run(options: argparse.Namespace, out: TextIO, err: TextIO, progress: Progre
         return _fail(err, error)
     except KeyboardInterrupt:
         progress.clear()
-        print("ffds: Interrupted, nothing was written.", file=err)
+        print("ffds: Interrupted; nothing half-written is left.", file=err)
         return INTERRUPTED
     except MemoryError:
         progress.clear()

@@ -12,7 +12,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+import weakref
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -222,26 +223,47 @@ def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
     return np.unique(np.concatenate([np.linspace(0.0, 1.0, _UNIFORM_SAMPLES), breaks, inner.ravel()]))
 
 
-def boolean_checks(shapes: tuple[Part.Shape, ...], limit: float) -> tuple[int | None, ...]:
-    """Errors that OCCT's check for Boolean operations reports for each shape; None where it did not finish in time.
+class BooleanChecks:
+    """OCCT's checks for Boolean operations, begun at once and running beside other work.
 
-    The check can take hours and cannot be interrupted, so each shape is checked in a process of its own, which ends by
-    itself when it has used the time, should nobody be left to end it.
+    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own. It ends with
+    this object, or by itself when it has used the time, should nobody be left to end it.
+
+    Parameters
+    ----------
+    shapes : what to check
+    limit : seconds from now after which a check is given up
     """
-    with tempfile.TemporaryDirectory() as folder:
-        processes = []
+
+    def __init__(self, shapes: Sequence[Part.Shape], limit: float) -> None:
+        self._deadline = time.monotonic() + limit
+        self._folder = tempfile.TemporaryDirectory()
+        self._processes: list[subprocess.Popen[str]] = []
+        self._end = weakref.finalize(self, _end, self._processes, self._folder)
         for number, shape in enumerate(shapes):
-            path = Path(folder) / f"{number}.brep"
+            path = Path(self._folder.name) / f"{number}.brep"
             shape.exportBrep(str(path))
             command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(limit) + 1)]
-            processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
-        try:
-            deadline = time.monotonic() + limit
-            return tuple(_errors(process, deadline) for process in processes)
-        finally:
-            for process in processes:
-                process.kill()
-                process.wait()
+            self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                                    text=True))
+
+    def errors(self) -> tuple[int | None, ...]:
+        """Number of errors found in each shape, waited for; None where the check did not finish in time."""
+        found = tuple(_errors(process, self._deadline) for process in self._processes)
+        self._end()
+        return found
+
+
+def boolean_checks(shapes: Sequence[Part.Shape], limit: float) -> tuple[int | None, ...]:
+    """Errors that OCCT's check for Boolean operations reports for each shape; None where it took over ``limit`` s."""
+    return BooleanChecks(shapes, limit).errors()
+
+
+def _end(processes: Sequence[subprocess.Popen[str]], folder: tempfile.TemporaryDirectory[str]) -> None:
+    for process in processes:
+        process.kill()
+        process.wait()
+    folder.cleanup()
 
 
 def _interpreter() -> str:

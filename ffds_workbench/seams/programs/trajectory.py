@@ -2,31 +2,17 @@
 """FreeCAD's own robot trajectories: one ``Robot::TrajectoryObject`` per seam, alone or in a new document."""
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import FreeCAD
 import Robot
 
+from ...brep import document_colours
 from ...errors import RefusedError
 from .moves import AIR_VELOCITY, RobotSettings, SeamMoves
 
 _NAMED_TOOL = 1
-_SHOWN = """<?xml version='1.0' encoding='utf-8'?>
-<Document SchemaVersion="1">
-    <ViewProviderData Count="{count}">{providers}
-    </ViewProviderData>
-    <Camera settings=""/>
-</Document>
-"""
-_PROVIDER = """
-        <ViewProvider name="{name}" expanded="0">
-            <Properties Count="1" TransientCount="0">
-                <Property name="Visibility" type="App::PropertyBool" status="1"><Bool value="true"/></Property>
-            </Properties>
-        </ViewProvider>"""
-"""What a document that was saved without a GUI lacks: it opens with everything hidden."""
 
 
 def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], settings: RobotSettings
@@ -59,9 +45,7 @@ def write_document(path: Path, seams: Sequence[SeamMoves], settings: RobotSettin
         document.recompute()
         document.saveAs(str(path))
         if not FreeCAD.GuiUp:
-            providers = "".join(_PROVIDER.format(name=name) for name in names)
-            with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
-                archive.writestr("GuiDocument.xml", _SHOWN.format(count=len(names), providers=providers))
+            document_colours.add_views(path, dict.fromkeys(names, ()))
     except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
         raise RefusedError(f"The document could not be written: {error}.") from error
     finally:
