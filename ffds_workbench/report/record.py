@@ -82,11 +82,12 @@ def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
 
 
 def sheet_record(joint: JointRegistration | None) -> Record:
-    """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, and strain."""
+    """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, strain, and how far the
+    part may be off in mm because the scan may show the other skin."""
     if joint is None:
-        return {"thickness": None, "strain": None}
+        return {"thickness": None, "strain": None, "unsure": 0.0}
     thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)
-    return {"thickness": thickness, "strain": joint.strain}
+    return {"thickness": thickness, "strain": joint.strain, "unsure": joint.unsure}
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:

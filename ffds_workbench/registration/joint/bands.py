@@ -10,7 +10,7 @@ from .lattice import Index
 from .problem import Problem
 from .samples import Samples
 
-_TWO_SIDED = 1.96
+TWO_SIDED = 1.96
 _UNSEEN, _FAR = 4.30, 2.0
 """The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
 that the shape strays as Student's t with two degrees of freedom does."""
@@ -69,9 +69,9 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samp
         total = variance.sum(axis=1)
         freedom = np.clip(total**2 / (variance**2).sum(axis=1), 1.0, 2.0)
         bands[start : start + len(part)] = np.sqrt(total / freedom * chi2.ppf(0.95, freedom))
-    return _quantile(gap) / _TWO_SIDED * bands
+    return _quantile(gap) / TWO_SIDED * bands
 
 
 def _quantile(gap: Array) -> Array:
     """Half width of a 95 % band in standard deviations."""
-    return _TWO_SIDED + (_UNSEEN - _TWO_SIDED) * np.clip(gap / _FAR, 0, 1)
+    return TWO_SIDED + (_UNSEEN - TWO_SIDED) * np.clip(gap / _FAR, 0, 1)

@@ -26,7 +26,7 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     inverse = state.factor.inverse_blocks()
     prior = shape_equations(problem, state.control_points, 1.0, state.trust).blocks
     told = 3 * problem.lattices.count - float((inverse * prior).sum())
-    ratio = _paid(problem, state) / max(told, 1.0)
+    ratio = paid(problem, state) / max(told, 1.0)
     if ratio < _SAME:
         return inverse
     data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values).blocks
@@ -36,7 +36,7 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     return FrontCholesky(problem.pattern.layout, data + prior / ratio).inverse_blocks()
 
 
-def _paid(problem: Problem, state: State) -> float:
+def paid(problem: Problem, state: State) -> float:
     """What all priors together cost at the final shape, in chi-square units."""
     settings, stiffness = problem.settings, problem.stiffness
     normal = normals(stiffness.places.displaced(problem.lattices, state.control_points, 3), stiffness.places.outward)[0]

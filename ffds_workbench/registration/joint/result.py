@@ -94,6 +94,7 @@ class JointRegistration:
     iterations : Gauss-Newton steps
     last_step : largest change of a surface point in mm in the last step
     used : number of scan points that carry weight
+    unsure : thickness in mm of a sheet of which the scan may show the other skin, contained in the bands; mostly 0
     """
 
     faces: tuple[JointFace, ...]
@@ -105,3 +106,4 @@ class JointRegistration:
     iterations: int
     last_step: float
     used: int
+    unsure: float = 0.0

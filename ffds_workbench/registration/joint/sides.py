@@ -2,9 +2,12 @@
 """Which side of a thin part a scan point shows: a sheet that moved by its own thickness lies where its far side was.
 
 Neighbouring scan points show the same side, so one sign is wanted per connected piece of the scan; the piece as a whole
-tells it, since no part of a sheet moves without its neighbours.
+tells it, since no part of a sheet moves without its neighbours. Where it does not, both sides are tried, and what the
+scan shows of the walls between the skins tells.
 """
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +15,15 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from ...errors import RefusedError
 from ..rigid.sketch import Sketch, sketch_of
 from ..splines import Array
+from .correspondence import correspond, make_frames
 from .lattice import Index
+from .posterior import paid
 from .problem import Problem
 from .raster import normals
+from .state import State
 
 _POINTS = 4000
 _THICK = 3.0
@@ -28,6 +35,16 @@ _SURE = 0.85
 _FEWER, _LOST = 0.5, 0.004
 """Likewise for the count of points that find nothing on the part, each raised by that share of all."""
 _FEWEST, _FEWEST_OF_PIECE = 100, 30
+_DOUBTFUL, _MAIN = 0.75, 0.2
+"""A piece with this share of the sketch and less difference than this factor between its sides is tried both ways."""
+_CHEAPER, _LEFT_OUT = 0.8, 9.0
+"""A fit that costs less than the other one by this factor is right; a point that it leaves out costs what it would
+three standard deviations away."""
+_WALL_POINTS, _MORE = 50, 3
+"""The skin is seen whose fit has so many more scan points than this many times the other's on the walls beside it, …"""
+_NEARER, _LEVEL = 0.6, 0.9
+"""… or moved less by the first factor. Above it the nearer one is taken with bands as wide as the sheet is thick, up to
+the second one."""
 _AGREED = 0.5
 """Mean of the signs within a smooth piece from which they are trusted."""
 _NEIGHBOURS, _SMOOTH, _RISE = 9, 0.9, 0.35
@@ -36,48 +53,93 @@ _NEAR = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
 
-def facing(problem: Problem, reach: float) -> Array | None:
+def facing(problem: Problem, reach: float) -> list[Array | None]:
     """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
 
-    ``reach`` is how far the scan may lie from the nominal part, in mm. None where no sheet is so thin that its
-    sides could be mixed up, or the noise hides them.
+    ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
+    nearer side first; None where no sheet is so thin that its sides could be mixed up, or the noise hides them.
     """
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
     if not sheets or min(sheets) > _THICK * reach or problem.statistics.noise > min(sheets) / _ROUGH:
-        return None
+        return [None]
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
     near = cKDTree(place).query(problem.sample, distance_upper_bound=reach, workers=-1)[0]
     if np.isfinite(near).sum() < _FEWEST:
-        return None
+        return [None]
     sketch = sketch_of(problem.sample[np.isfinite(near)], np.random.default_rng(problem.settings.seed), _POINTS)
-    linked = _signs(place, normal, sketch, 2 * reach)[sketch.piece]
-    outward = _one_sign_each(sketch, linked)[:, None] * sketch.normals
     distance, near = cKDTree(sketch.points).query(problem.sample, workers=-1)
-    known = distance < _NEAR * np.median(distance)
-    result = np.zeros_like(problem.sample)
-    result[known] = outward[near[known]]
-    return result
+    known = (distance < _NEAR * np.median(distance))[:, None]
+    sides = [_one_sign_each(sketch, signs[sketch.piece]) for signs in _signs(place, normal, sketch, 2 * reach)]
+    return [np.where(known, (side[:, None] * sketch.normals)[near], 0.0) for side in sides
+            if side is sides[0] or (side != sides[0]).any()]
 
 
-def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> Array:
+def shown(problem: Problem, states: list[State]) -> State:
+    """The right one of two fits of a sheet, to either of its skins; a single fit as it is.
+
+    Raises
+    ------
+    RefusedError : the scan shows a skin and nothing beside it, and both fits are as near to the nominal part
+    """
+    if len(states) == 1:
+        return states[0]
+    costs, matched, walls, moved = (np.array(item) for item in zip(*(_evidence(problem, state) for state in states),
+                                                                   strict=True))
+    costs = costs + _LEFT_OUT * (matched.max() - matched)
+    for own, other in ((0, 1), (1, 0)):
+        if costs[own] < _CHEAPER * costs[other]:
+            return states[own]
+    for own, other in ((0, 1), (1, 0)):
+        if walls[own] > _MORE * walls[other] + _WALL_POINTS:
+            return states[own]
+    for own, other in ((0, 1), (1, 0)):
+        if moved[own] < _NEARER * moved[other]:
+            return states[own]
+        if moved[own] < _LEVEL * moved[other]:
+            return replace(states[own], unsure=max(problem.couplings.pairs.solid_thickness))
+    raise RefusedError("The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as "
+                       "well, or align the scan to less than half the sheet's thickness first.")
+
+
+def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
+    """Cost in chi-square units, points of the sample that are matched, scan points on faces that are no skin, and mean
+    movement of all matched ones along the normals in mm."""
+    jet = problem.cells.displaced(problem.lattices, state.control_points)
+    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    found = correspond(problem.scan, frames, 4 * problem.statistics.noise)
+    walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
+    normal = normals(problem.cells.nominal, problem.cells.outward)[0]
+    moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]
+    misfit = float((state.values.weight * state.values.height**2).sum())
+    return (paid(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
+            float(np.abs(moved).mean()) if len(moved) else np.inf)
+
+
+def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> list[Array]:
     """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
 
     With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
+    Where a large piece is in doubt, its other sign comes second, with those of all others that are in doubt.
     """
     tree = cKDTree(np.hstack([place, most * normal]), balanced_tree=False, compact_nodes=False)
     both = [tree.query(np.hstack([sketch.points, sign * most * sketch.normals]), distance_upper_bound=most,
                        workers=-1)[0] for sign in (1.0, -1.0)]
     lost = [np.bincount(sketch.piece, weights=np.isinf(found).astype(float)) for found in both]
     distance = [np.bincount(sketch.piece, weights=np.minimum(found, most)) for found in both]
-    few = _LOST * np.bincount(sketch.piece).astype(float)
-    return _less(lost[0] + few, lost[1] + few, _FEWER, _less(distance[0], distance[1], _SURE, np.zeros(len(few))))
+    size = np.bincount(sketch.piece).astype(float)
+    told = _less(lost[0] + _LOST * size, lost[1] + _LOST * size, _FEWER)
+    near = np.where(told == 0, _less(distance[0], distance[1], _SURE), told)
+    doubtful = (told == 0) & (_less(distance[0], distance[1], _DOUBTFUL) == 0)
+    main = doubtful & (size > _MAIN * size.sum())
+    first = np.where(main & (near == 0), np.where(distance[0] <= distance[1], 1.0, -1.0), near)
+    return [first, np.where(doubtful, -first, first)] if main.any() else [near]
 
 
-def _less(first: NDArray[np.number], second: NDArray[np.number], factor: float, otherwise: Array) -> Array:
-    """+1 where the first is less by that factor, −1 where the second is, else what is given."""
-    return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, otherwise))
+def _less(first: NDArray[np.number], second: NDArray[np.number], factor: float) -> Array:
+    """+1 where the first is less by that factor, −1 where the second is, else 0."""
+    return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, 0.0))
 
 
 def _one_sign_each(sketch: Sketch, signs: Array) -> Array:

@@ -23,7 +23,7 @@ from .problem import Problem, make_problem
 from .refinement import finer_faces, transfer
 from .result import JointRegistration
 from .settings import JointSettings, Stage, stages
-from .sides import facing
+from .sides import facing, shown
 from .state import State, start
 from .summary import refuse_bad, summarise
 from .system import solve
@@ -58,11 +58,13 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     report = progress or (lambda stage, share: None)
     problem = make_problem(part, scan, settings, {})
     state = start(problem)
-    state = replace(state, facing=facing(problem, state.reach))
     steps = stages(settings.schedule, state.reach)
+    report("joint solve", 0.0)
+    state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward))
+                            for outward in facing(problem, state.reach)])
     for number, stage in enumerate(steps):
-        report("joint solve", number / len(steps))
-        if stage.soft or state.last_step > _SETTLED:
+        if stage.soft:
+            report("joint solve", number / len(steps))
             state = run_stage(problem, stage, state)
     finer = finer_faces(problem, state) if settings.refine else {}
     if finer:
@@ -74,6 +76,13 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = replace(state, control_points=exact_ends(part, problem.lattices, state.control_points))
     refuse_bad(problem, state)
     return summarise(problem, state)
+
+
+def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State) -> State:
+    for stage in steps:
+        if not stage.soft and state.last_step > _SETTLED:
+            state = run_stage(problem, stage, state)
+    return state
 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:

@@ -39,6 +39,7 @@ class State:
     factor : of an earlier normal matrix; after the last stage of one with all data
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
+    unsure : how far the whole part may be off in mm, because the scan may show the other skin of a sheet
     """
 
     control_points: Array
@@ -52,6 +53,7 @@ class State:
     factor: FrontCholesky | None = None
     last_step: float = np.inf
     iterations: int = 0
+    unsure: float = 0.0
 
 
 def start(problem: Problem) -> State:

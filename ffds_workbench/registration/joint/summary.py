@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...errors import RefusedError
 from ..splines import Array
-from .bands import edge_bands, normal_bands
+from .bands import TWO_SIDED, edge_bands, normal_bands
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
 from .lattice import Index
 from .misfit import misfit, nearest_spans
@@ -90,14 +90,16 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
     covariance = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
-    off, errors = misfit(problem, state.values), shared_errors(problem, state)
+    off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2
+    errors = shared_errors(problem, state)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     return JointRegistration(
         faces=_faces(problem, state, covariance, errors, seen, off),
         edges=_edges(problem, state, covariance, errors, seen, off),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
-        iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()))
+        iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),
+        unsure=state.unsure)
 
 
 def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
