@@ -22,7 +22,7 @@ from .preview_drawing import PreviewDrawing
 from .preview_runner import PreviewRunner
 from .qt import QtCore, QtWidgets
 from .selection import Chosen, chosen, scans_of
-from .translating import tr
+from .translating import said, tr
 
 
 def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
@@ -90,7 +90,7 @@ class DeformationPanel:
                 raise InputError(tr("{name} is neither a face nor a point cloud: pick faces of a part, and a scan."
                                     ).format(name=selected.others[0]))
         except InputError as refusal:
-            self._hint = str(refusal)
+            self._hint = said(str(refusal))
 
     def _pick_faces(self, part: Any, faces: tuple[str, ...]) -> None:
         if self._item is not None and part is not self._source:
@@ -172,7 +172,7 @@ class DeformationPanel:
             return
         self._overlay.show([])
         self._overlay.cover()
-        self.form.show_figures(None, self._hint or str(failure))
+        self.form.show_figures(None, self._hint or said(str(failure)))
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
         if not self._alive():
@@ -197,7 +197,7 @@ class DeformationPanel:
         try:
             job = self._job()
         except FfdsError as refusal:
-            running.tell(str(refusal))
+            running.tell(said(str(refusal)))
             return False
         self._runner.stop()
         self.form.set_busy(True)
@@ -222,7 +222,7 @@ class DeformationPanel:
         self._worker = None
         self.form.set_busy(False)
         if isinstance(failure, FfdsError):
-            running.tell(str(failure))
+            running.tell(said(str(failure)))
         else:
             raise failure
 

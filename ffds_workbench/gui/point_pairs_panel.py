@@ -14,7 +14,7 @@ from . import running
 from .overlay import Overlay, points_node
 from .panel import ProgressBar, named, wrapped
 from .qt import QtCore, QtWidgets
-from .translating import tr
+from .translating import said, tr
 
 _PAIRS = 3
 _COLOURS = (0xE6194BFF, 0x2F7FC8FF, 0xF0A500FF)
@@ -127,7 +127,7 @@ class PointPairsPanel:
         try:
             work = prepare(self._part, self._scan, *self._arguments())
         except FfdsError as refusal:
-            self._message.setText(str(refusal))
+            self._message.setText(said(str(refusal)))
             return False
         self._set_busy(True)
         self._worker = running.Worker(work, lambda _: self._finish(), self._failed, self._told)
@@ -147,7 +147,7 @@ class PointPairsPanel:
         self._show()
         if not isinstance(failure, FfdsError):
             raise failure
-        self._message.setText(f"{failure} " + tr("Or leave out the fine alignment."))
+        self._message.setText(said(str(failure)) + " " + tr("Or leave out the fine alignment."))
 
     def _told(self, text: str) -> None:
         self._hint.setText(text)

@@ -13,7 +13,7 @@ import FreeCADGui as Gui
 from ..errors import FfdsError
 from .panel import ProgressBar
 from .qt import QtCore, QtWidgets, execute
-from .translating import tr
+from .translating import said, tr
 
 ACTIONS = "ffds_workbench.objects.actions"
 _POLL_MS = 15
@@ -29,7 +29,7 @@ def telling() -> Iterator[None]:
     try:
         yield
     except FfdsError as refusal:
-        tell(str(refusal))
+        tell(said(str(refusal)))
     except Cancelled:
         return
 
@@ -58,13 +58,13 @@ def call(document: Any, title: str, line: str) -> None:
     document.commitTransaction()
 
 
-def record(line: str) -> None:
-    """Run a line of Python that calls `ACTIONS`, and record it with its import.
+def record(line: str, name: str = "") -> None:
+    """Run a line of Python that calls `ACTIONS`, and record it with its import; ``name`` keeps what it gives.
 
     ``Gui.addModule`` would record the import once per session, and macros that start later would lack it.
     """
     Gui.doCommand(f"import {ACTIONS}")
-    Gui.doCommand(f"{ACTIONS}.{line}")
+    Gui.doCommand(f"{name} = {ACTIONS}.{line}" if name else f"{ACTIONS}.{line}")
 
 
 class Worker(QtCore.QObject):
@@ -75,7 +75,7 @@ class Worker(QtCore.QObject):
     work : touches no document; the thread ends at the next ``progress`` after a cancellation
     done : called with the result
     failed : called with the exception
-    told : called with what is being done
+    told : called with what is being done, in the user's language
     """
 
     def __init__(self, work: Callable[[Callable[[str], None]], Any], done: Callable[[Any], None],
@@ -111,7 +111,7 @@ class Worker(QtCore.QObject):
             kind, value = self._news.get()
             if kind != "told":
                 self._timer.stop()
-            self._calls[kind](value)
+            self._calls[kind](said(value) if kind == "told" else value)
 
 
 def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> Any:

@@ -165,9 +165,9 @@ def stations_of(obj: Any) -> dict[str, Array]:
             for name in (rows[0] if rows else ())}
 
 
-def export_program(item: Any, path: str) -> None:
+def export_program(item: Any, path: str) -> list[str]:
     """Write seams as a program (.src with .dat, .mod, .script), a table (.csv), a document with trajectories (.FCStd),
-    a report (.json) or a picture (.png): whole or not at all.
+    a report (.json) or a picture (.png): whole or not at all. Returns what the user must know of it, as sentences.
 
     Raises
     ------
@@ -176,10 +176,8 @@ def export_program(item: Any, path: str) -> None:
     plan, suffix = _plan(item), Path(path).suffix.lower()
     extra = {".json": "report_path", ".png": "picture"}
     if suffix in extra:
-        api.write_seams(plan, [], **{extra[suffix]: path})
-        return
-    for note in api.write_seams(plan, [path], robot_of(item)):
-        FreeCAD.Console.PrintWarning(f"{note}\n")
+        return api.write_seams(plan, [], **{extra[suffix]: path})
+    return api.write_seams(plan, [path], robot_of(item))
 
 
 def add_trajectories(item: Any) -> list[Any]:

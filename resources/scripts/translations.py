@@ -6,11 +6,14 @@
 Translations that are there are kept, texts that are gone are dropped, new ones are left open for the translator. With
 the path of Qt's ``lrelease`` (Debian: qttools5-dev-tools) the .qm files are made anew. English is the language of the
 sources. What is collected: ``tr("…")`` and the titles of undo steps, the texts of commands and of the preferences page,
-and the tooltips of properties; their names stay as Python and expressions know them.
+and the tooltips of properties; their names stay as Python and expressions know them. Of the layers below the window,
+which know no Qt, what they say to the user: refusals, stages of work and notes, with ``{0}`` for their first value.
 """
 from __future__ import annotations
 
 import ast
+import itertools
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -22,6 +25,15 @@ FOLDER = ROOT / "resources" / "translations"
 LANGUAGES = ("de",)
 Text = tuple[str, str]
 """Context and text."""
+LAYERS = ("registration", "scan", "brep", "seams", "report", "api", "objects")
+SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress": 0, "_no_answer": 0}
+"""Calls that say something, and which argument it is."""
+PHRASES = {"sentences", "reason", "lost", "where", "missing", "was", "renamed", "phrases", "notes", "left_out"}
+"""Variables that hold sentences, or a part of one."""
+ANSWERS = {"text", "doubts", "_branching", "blocked_ways"}
+"""Functions that return one."""
+WORDS = ("scan", "part", "faces", "edges", "vertices")
+"""Words that stand where a sentence has a value."""
 
 
 def texts() -> list[Text]:
@@ -35,7 +47,71 @@ def texts() -> list[Text]:
     for path in sorted((ROOT / "ffds_workbench" / "objects").glob("*.py")):
         found += _of_properties(ast.parse(path.read_text("utf-8")))
     found += _of_page(ROOT / "resources" / "ui" / "preferences.ui")
+    for path in (path for layer in LAYERS for path in sorted((ROOT / "ffds_workbench" / layer).rglob("*.py"))):
+        found += (("Sentence", text) for text in _said(ast.parse(path.read_text("utf-8"))))
+    found += (("Sentence", word) for word in WORDS)
     return list(dict.fromkeys(found))
+
+
+def _said(tree: ast.AST) -> Iterator[str]:
+    """What a module says to the user, as templates."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            told = name == "append" and getattr(node.func.value, "id", "") in PHRASES
+            spoken = node.args[SAYING.get(name, 0):][:1] if name in SAYING or told else []
+        elif isinstance(node, (ast.Assign, ast.AugAssign)):
+            names = {getattr(item, "id", "") for target in getattr(node, "targets", None) or [node.target]
+                     for item in ast.walk(target)}
+            spoken = [node.value] if names & PHRASES else []
+        elif isinstance(node, ast.FunctionDef) and node.name in ANSWERS:
+            spoken = [item.value for item in ast.walk(node) if isinstance(item, ast.Return) and item.value is not None]
+        else:
+            continue
+        for value in spoken:
+            yield from _templates(value)
+
+
+def _templates(node: ast.expr) -> Iterator[str]:
+    """The texts that an expression can be, and those that can be values in them; lists give those of their items."""
+    if isinstance(node, (ast.List, ast.Tuple)):
+        for item in node.elts:
+            yield from _templates(item)
+    elif isinstance(node, (ast.ListComp, ast.GeneratorExp)):
+        yield from _templates(node.elt)
+    elif isinstance(node, ast.IfExp):
+        yield from _templates(node.body)
+        yield from _templates(node.orelse)
+    elif isinstance(node, ast.BoolOp):
+        for item in node.values:
+            yield from _templates(item)
+    elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "format":
+        if isinstance(node.func.value, ast.Constant):
+            numbers = itertools.count()
+            yield re.sub(r"\{[^}]*\}", lambda _: f"{{{next(numbers)}}}", node.func.value.value)
+    else:
+        parts = list(_parts(node))
+        text = "".join(f"{{{sum(not isinstance(other, str) for other in parts[:k])}}}" if not isinstance(part, str)
+                       else part for k, part in enumerate(parts))
+        if any(isinstance(part, str) and " " in part.strip() for part in parts) or len(parts) > 1 and ": " in text:
+            yield text
+        for part in parts:
+            if not isinstance(part, str) and part is not node:
+                yield from _templates(part)
+
+
+def _parts(node: ast.expr) -> Iterator[str | ast.expr]:
+    """The letters of a text, and expressions where it has values."""
+    if isinstance(node, ast.Constant):
+        yield str(node.value)
+    elif isinstance(node, ast.JoinedStr):
+        for part in node.values:
+            yield from _parts(part)
+    elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        yield from _parts(node.left)
+        yield from _parts(node.right)
+    else:
+        yield node.value if isinstance(node, ast.FormattedValue) else node
 
 
 def _of_calls(tree: ast.AST) -> Iterator[Text]:

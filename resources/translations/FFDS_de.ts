@@ -1048,6 +1048,957 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>Sentence</name>
+    <message>
+      <source> (its {0} rows are not finite numbers)</source>
+      <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
+    </message>
+    <message>
+      <source>'{0}' is no tool or base: give a number, a name, or X,Y,Z,A,B,C in mm and degrees.</source>
+      <translation>„{0}“ ist kein Werkzeug und keine Basis: Geben Sie eine Nummer, einen Namen oder X,Y,Z,A,B,C in mm und Grad an.</translation>
+    </message>
+    <message>
+      <source>--object picks an object of a FreeCAD document, and {0} is none.</source>
+      <translation>--object wählt ein Objekt eines FreeCAD-Dokuments, und {0} ist keines.</translation>
+    </message>
+    <message>
+      <source>: {0}</source>
+      <translation>: {0}</translation>
+    </message>
+    <message>
+      <source>A URScript has no numbered or named {0}s: give X,Y,Z,A,B,C instead of {1}.</source>
+      <translation>Ein URScript kennt keine nummerierten oder benannten Werkzeuge und Basen ({0}): Geben Sie X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>A face of {0} is named, but {1} is made from {2}: choose faces of one part.</source>
+      <translation>Eine Fläche von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Flächen eines Teils.</translation>
+    </message>
+    <message>
+      <source>A scan is an array of shape (n, 3), not {0}.</source>
+      <translation>Ein Scan ist ein Array der Form (n, 3), nicht {0}.</translation>
+    </message>
+    <message>
+      <source>A sensor profile is for the whole part: it needs method robust without named faces.</source>
+      <translation>Ein Sensorprofil gilt für das ganze Teil: Es braucht das Verfahren robust ohne genannte Flächen.</translation>
+    </message>
+    <message>
+      <source>A table is seen by a camera: name at least one view.</source>
+      <translation>Einen Tisch sieht nur eine Kamera: Nennen Sie mindestens eine Ansicht.</translation>
+    </message>
+    <message>
+      <source>A view needs a direction from the part to the camera: 0,0,0 is none.</source>
+      <translation>Eine Ansicht braucht eine Richtung vom Teil zur Kamera: 0,0,0 ist keine.</translation>
+    </message>
+    <message>
+      <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
+      <translation>ABB-Steuerungen benennen Werkzeuge und Basen ({0}): Geben Sie einen Namen oder X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>Aligning the scan</source>
+      <translation>Der Scan wird ausgerichtet</translation>
+    </message>
+    <message>
+      <source>All faces together take their lattices from the data: name a face to choose its lattice.</source>
+      <translation>Alle Flächen zusammen richten ihre Gitter nach den Daten: Nennen Sie eine Fläche, um ihr Gitter zu wählen.</translation>
+    </message>
+    <message>
+      <source>An edge of {0} is named, but {1} is made from {2}: choose edges of one part.</source>
+      <translation>Eine Kante von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Kanten eines Teils.</translation>
+    </message>
+    <message>
+      <source>Carrying the faces around along</source>
+      <translation>Die Flächen ringsum werden mitgeführt</translation>
+    </message>
+    <message>
+      <source>Checking the topology</source>
+      <translation>Die Topologie wird geprüft</translation>
+    </message>
+    <message>
+      <source>Closing the edges</source>
+      <translation>Die Kanten werden geschlossen</translation>
+    </message>
+    <message>
+      <source>Edge{0} and its faces run at different parameters: repair the shape first.</source>
+      <translation>Edge{0} und ihre Flächen haben verschiedene Parameter: Reparieren Sie zuerst die Form.</translation>
+    </message>
+    <message>
+      <source>Edge{0} has no curve in the (u, v) of Face{1}: repair the shape first.</source>
+      <translation>Edge{0} hat keine Kurve im (u, v) von Face{1}: Reparieren Sie zuerst die Form.</translation>
+    </message>
+    <message>
+      <source>Edge{0} has no direction at some point: repair the edge first.</source>
+      <translation>Edge{0} hat an einer Stelle keine Richtung: Reparieren Sie zuerst die Kante.</translation>
+    </message>
+    <message>
+      <source>Edge{0} lies on another part over {1} of its length: the seam runs there alone.</source>
+      <translation>Edge{0} liegt auf {1} ihrer Länge an einem anderen Teil: Die Naht läuft nur dort.</translation>
+    </message>
+    <message>
+      <source>Edge{0} lies on no other part within {1} mm: use a larger tolerance or name it without one.</source>
+      <translation>Edge{0} liegt auf höchstens {1} mm an keinem anderen Teil: Nehmen Sie eine größere Toleranz, oder nennen Sie die Kante ohne Toleranz.</translation>
+    </message>
+    <message>
+      <source>Every face is frozen: leave at least one face free to move.</source>
+      <translation>Alle Flächen sind fixiert: Lassen Sie mindestens eine beweglich.</translation>
+    </message>
+    <message>
+      <source>Face{0} has other parameters in the as-built model: use the model that register wrote.</source>
+      <translation>Face{0} hat im Ist-Modell andere Parameter: Nehmen Sie das Modell, das register geschrieben hat.</translation>
+    </message>
+    <message>
+      <source>Face{0} is to be deformed and to be frozen: choose one.</source>
+      <translation>Face{0} soll verformt und fixiert werden: Wählen Sie eines von beiden.</translation>
+    </message>
+    <message>
+      <source>Face{0} would tear off at Edge{1}, where its neighbour stays.</source>
+      <translation>Face{0} würde an Edge{1} abreißen, wo der Nachbar stehen bleibt.</translation>
+    </message>
+    <message>
+      <source>Finding and measuring the seams</source>
+      <translation>Die Nähte werden gesucht und gemessen</translation>
+    </message>
+    <message>
+      <source>Finding the faces that the scan observes</source>
+      <translation>Die Flächen werden gesucht, die der Scan erfasst</translation>
+    </message>
+    <message>
+      <source>Isometry couples all faces of a sheet: it needs method robust without named faces.</source>
+      <translation>Isometrie verbindet alle Flächen eines Blechs: Sie braucht das Verfahren robust ohne genannte Flächen.</translation>
+    </message>
+    <message>
+      <source>Joints found by themselves are joined along tangency already: leave chain out.</source>
+      <translation>Von selbst gefundene Stöße sind schon tangential verbunden: Lassen Sie chain weg.</translation>
+    </message>
+    <message>
+      <source>KUKA controllers number tools and bases: give a number or X,Y,Z,A,B,C instead of '{0}'.</source>
+      <translation>KUKA-Steuerungen nummerieren Werkzeuge und Basen: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{0}“ an.</translation>
+    </message>
+    <message>
+      <source>Line {0} of the program gives a part of a pose only, {1}: write it in full.</source>
+      <translation>Zeile {0} des Programms nennt nur einen Teil einer Lage, {1}: Schreiben Sie sie ganz aus.</translation>
+    </message>
+    <message>
+      <source>Measuring the deviation</source>
+      <translation>Die Abweichung wird gemessen</translation>
+    </message>
+    <message>
+      <source>Name at least one edge for the seam.</source>
+      <translation>Nennen Sie mindestens eine Kante für die Naht.</translation>
+    </message>
+    <message>
+      <source>No face was named.</source>
+      <translation>Es wurde keine Fläche genannt.</translation>
+    </message>
+    <message>
+      <source>No part lies on another within {0} mm{1}.</source>
+      <translation>Kein Teil liegt auf höchstens {0} mm an einem anderen{1}.</translation>
+    </message>
+    <message>
+      <source>No pose of the path is near the nominal model: is the path in mm, and in the model's frame?</source>
+      <translation>Keine Lage der Bahn ist nahe am Nennmodell: Ist die Bahn in mm und im Koordinatensystem des Modells?</translation>
+    </message>
+    <message>
+      <source>No scan file was named.</source>
+      <translation>Es wurde keine Scandatei genannt.</translation>
+    </message>
+    <message>
+      <source>No scan point lies near the part: check the unit of the scan and align it first.</source>
+      <translation>Kein Scanpunkt liegt nahe am Teil: Prüfen Sie die Einheit des Scans und richten Sie ihn zuerst aus.</translation>
+    </message>
+    <message>
+      <source>No scan point lies over a face of the model: align the scan with the model first.</source>
+      <translation>Kein Scanpunkt liegt über einer Fläche des Modells: Richten Sie den Scan zuerst am Modell aus.</translation>
+    </message>
+    <message>
+      <source>No seam was named: give edges, or a tolerance within which to find the joints by themselves.</source>
+      <translation>Es wurde keine Naht genannt: Nennen Sie Kanten, oder eine Toleranz, mit der die Stöße von selbst gefunden werden.</translation>
+    </message>
+    <message>
+      <source>Noise, correlation, holes, edge band and pose error of a scan cannot be negative.</source>
+      <translation>Rauschen, Korrelation, Löcher, Randstreifen und Lagefehler eines Scans können nicht negativ sein.</translation>
+    </message>
+    <message>
+      <source>Nothing refers to {0}: there is nothing to re-point.</source>
+      <translation>Nichts bezieht sich auf {0}: Es gibt nichts umzuhängen.</translation>
+    </message>
+    <message>
+      <source>Only {0} of {1} scan points lie near the part: check the unit of the scan and align it first.</source>
+      <translation>Nur {0} von {1} Scanpunkten liegen nahe am Teil: Prüfen Sie die Einheit des Scans und richten Sie ihn zuerst aus.</translation>
+    </message>
+    <message>
+      <source>Only {0} scan points lie near faces that may move: freeze fewer faces, or scan the free ones.</source>
+      <translation>Nur {0} Scanpunkte liegen nahe an beweglichen Flächen: Fixieren Sie weniger Flächen, oder scannen Sie die beweglichen.</translation>
+    </message>
+    <message>
+      <source>Outliers beyond {0} mm make no sense: give a distance above 0.</source>
+      <translation>Ausreißer jenseits von {0} mm ergeben keinen Sinn: Geben Sie einen Abstand über 0 an.</translation>
+    </message>
+    <message>
+      <source>Reading the model</source>
+      <translation>Das Modell wird gelesen</translation>
+    </message>
+    <message>
+      <source>Rebuilding the model</source>
+      <translation>Das Modell wird neu aufgebaut</translation>
+    </message>
+    <message>
+      <source>Registering all faces together</source>
+      <translation>Alle Flächen werden zusammen angepasst</translation>
+    </message>
+    <message>
+      <source>Registering all faces together: {0}</source>
+      <translation>Alle Flächen werden zusammen angepasst: {0}</translation>
+    </message>
+    <message>
+      <source>Shell {0} is no longer closed.</source>
+      <translation>Hülle {0} ist nicht mehr geschlossen.</translation>
+    </message>
+    <message>
+      <source>Spacing, noise, correlation and pose error of a simulated scan are finite numbers.</source>
+      <translation>Abstand, Rauschen, Korrelation und Lagefehler eines simulierten Scans sind endliche Zahlen.</translation>
+    </message>
+    <message>
+      <source>Stiffness and outliers are settings of method robust, not of {0}: leave them out.</source>
+      <translation>Steifigkeit und Ausreißer sind Einstellungen des Verfahrens robust, nicht von {0}: Lassen Sie sie weg.</translation>
+    </message>
+    <message>
+      <source>The STEP file could not be written whole: is the disk full?</source>
+      <translation>Die STEP-Datei ließ sich nicht ganz schreiben: Ist der Datenträger voll?</translation>
+    </message>
+    <message>
+      <source>The STEP file could not be written: {0}.</source>
+      <translation>Die STEP-Datei ließ sich nicht schreiben: {0}.</translation>
+    </message>
+    <message>
+      <source>The STEP file does not hold all faces of the result: write .brep or .FCStd.</source>
+      <translation>Die STEP-Datei enthält nicht alle Flächen des Ergebnisses: Schreiben Sie .brep oder .FCStd.</translation>
+    </message>
+    <message>
+      <source>The STEP file does not read back as a valid shape: write .brep or .FCStd.</source>
+      <translation>Aus der STEP-Datei lässt sich keine gültige Form zurücklesen: Schreiben Sie .brep oder .FCStd.</translation>
+    </message>
+    <message>
+      <source>The alignment '{0}' is unknown: use one of {1}.</source>
+      <translation>Die Ausrichtung „{0}“ ist unbekannt: Nehmen Sie eine von {1}.</translation>
+    </message>
+    <message>
+      <source>The approach must lie between 0 and 2000 mm, not {0}.</source>
+      <translation>Der Anfahrweg muss zwischen 0 und 2000 mm liegen, nicht bei {0}.</translation>
+    </message>
+    <message>
+      <source>The check for Boolean operations reports {0} errors, {1} before.</source>
+      <translation>Die Prüfung für boolesche Operationen meldet {0} Fehler, vorher {1}.</translation>
+    </message>
+    <message>
+      <source>The controller calls the program {0}: name {1} and its .dat so.</source>
+      <translation>Die Steuerung nennt das Programm {0}: Benennen Sie {1} und die .dat-Datei dazu ebenso.</translation>
+    </message>
+    <message>
+      <source>The deformed model lost its topology and was not written: {0}</source>
+      <translation>Das verformte Modell verlor seine Topologie und wurde nicht geschrieben: {0}</translation>
+    </message>
+    <message>
+      <source>The displacement found, {0} mm, is larger than the part ({1} mm): align the scan first.</source>
+      <translation>Die gefundene Verschiebung, {0} mm, ist größer als das Teil ({1} mm): Richten Sie den Scan zuerst aus.</translation>
+    </message>
+    <message>
+      <source>The document could not be written whole: is the disk full?</source>
+      <translation>Das Dokument ließ sich nicht ganz schreiben: Ist der Datenträger voll?</translation>
+    </message>
+    <message>
+      <source>The document could not be written: {0}.</source>
+      <translation>Das Dokument ließ sich nicht schreiben: {0}.</translation>
+    </message>
+    <message>
+      <source>The isometry '{0}' is unknown: use one of {1}.</source>
+      <translation>Die Isometrie „{0}“ ist unbekannt: Nehmen Sie eine von {1}.</translation>
+    </message>
+    <message>
+      <source>The largest edge gap grew from {0} to {1} mm.</source>
+      <translation>Die größte Lücke an einer Kante wuchs von {0} auf {1} mm.</translation>
+    </message>
+    <message>
+      <source>The largest tolerance grew from {0} to {1} mm.</source>
+      <translation>Die größte Toleranz wuchs von {0} auf {1} mm.</translation>
+    </message>
+    <message>
+      <source>The lattice {0} is unknown or too small: a cubic lattice has 4 or more control points in each direction, for instance 10x10.</source>
+      <translation>Das Gitter {0} ist unbekannt oder zu klein: Ein kubisches Gitter hat mindestens 4 Kontrollpunkte in jeder Richtung, zum Beispiel 10x10.</translation>
+    </message>
+    <message>
+      <source>The lattice {0}x{1} is too fine for {2}: its {3} control points are not determined by the {4} raster cells that hold scan points; choose a smaller lattice.</source>
+      <translation>Das Gitter {0}x{1} ist zu fein für {2}: Seine {3} Kontrollpunkte werden von den {4} Rasterzellen mit Scanpunkten nicht bestimmt; wählen Sie ein kleineres Gitter.</translation>
+    </message>
+    <message>
+      <source>The limit for {0} must be a number of at least 0, not {1}.</source>
+      <translation>Die Grenze für {0} muss eine Zahl nicht unter 0 sein, nicht {1}.</translation>
+    </message>
+    <message>
+      <source>The method '{0}' is unknown: use one of {1}.</source>
+      <translation>Das Verfahren „{0}“ ist unbekannt: Nehmen Sie eines von {1}.</translation>
+    </message>
+    <message>
+      <source>The model is a single part, so no part lies on another: name the edges of the seam.</source>
+      <translation>Das Modell ist ein einziges Teil, also liegt kein Teil auf einem anderen: Nennen Sie die Kanten der Naht.</translation>
+    </message>
+    <message>
+      <source>The model {0} cannot be read: it is damaged or not a {1} file.</source>
+      <translation>Das Modell {0} ist nicht lesbar: Es ist beschädigt oder keine {1}-Datei.</translation>
+    </message>
+    <message>
+      <source>The model {0} does not exist.</source>
+      <translation>Das Modell {0} gibt es nicht.</translation>
+    </message>
+    <message>
+      <source>The model {0} has no faces: FFDS deforms the faces of a solid, shell or compound.</source>
+      <translation>Das Modell {0} hat keine Flächen: FFDS verformt die Flächen eines Körpers, einer Hülle oder eines Verbunds.</translation>
+    </message>
+    <message>
+      <source>The model {0} holds no shape: it is damaged or empty.</source>
+      <translation>Das Modell {0} enthält keine Form: Es ist beschädigt oder leer.</translation>
+    </message>
+    <message>
+      <source>The model {0} is a folder: name a file.</source>
+      <translation>Das Modell {0} ist ein Ordner: Nennen Sie eine Datei.</translation>
+    </message>
+    <message>
+      <source>The model {0} is damaged or not a FreeCAD document.</source>
+      <translation>Das Modell {0} ist beschädigt oder kein FreeCAD-Dokument.</translation>
+    </message>
+    <message>
+      <source>The model {0} is empty.</source>
+      <translation>Das Modell {0} ist leer.</translation>
+    </message>
+    <message>
+      <source>The model {0} is not a valid shape (Part: Check geometry lists why): repair it first.</source>
+      <translation>Das Modell {0} ist keine gültige Form (Part: „Geometrie überprüfen“ nennt die Gründe): Reparieren Sie es zuerst.</translation>
+    </message>
+    <message>
+      <source>The model {0} is of an unknown format: use one of {1}.</source>
+      <translation>Das Modell {0} hat ein unbekanntes Format: Nehmen Sie eines von {1}.</translation>
+    </message>
+    <message>
+      <source>The nominal and the as-built model are put together differently: name the nominal model from which the as-built one was made.</source>
+      <translation>Nennmodell und Ist-Modell sind verschieden zusammengesetzt: Nennen Sie das Nennmodell, aus dem das Ist-Modell entstand.</translation>
+    </message>
+    <message>
+      <source>The nominal model has {0} {1} and the as-built one {2}: name the nominal model from which the as-built one was made.</source>
+      <translation>Das Nennmodell hat {0} {1} und das Ist-Modell {2}: Nennen Sie das Nennmodell, aus dem das Ist-Modell entstand.</translation>
+    </message>
+    <message>
+      <source>The number of {0} changed from {1} to {2}.</source>
+      <translation>Die Anzahl ({0}) änderte sich von {1} auf {2}.</translation>
+    </message>
+    <message>
+      <source>The order of the faces, edges or vertices changed.</source>
+      <translation>Die Reihenfolge der Flächen, Kanten oder Ecken änderte sich.</translation>
+    </message>
+    <message>
+      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) oder .FCStd.</translation>
+    </message>
+    <message>
+      <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .step, .brep oder .FCStd.</translation>
+    </message>
+    <message>
+      <source>The path has a header and no poses.</source>
+      <translation>Die Bahn hat eine Kopfzeile, aber keine Lagen.</translation>
+    </message>
+    <message>
+      <source>The path has a row whose quaternion is zero.</source>
+      <translation>Die Bahn hat eine Zeile, deren Quaternion null ist.</translation>
+    </message>
+    <message>
+      <source>The path has a row without finite numbers for {0}.</source>
+      <translation>Die Bahn hat eine Zeile ohne endliche Zahlen für {0}.</translation>
+    </message>
+    <message>
+      <source>The path has a row without numbers for {0}.</source>
+      <translation>Die Bahn hat eine Zeile ohne Zahlen für {0}.</translation>
+    </message>
+    <message>
+      <source>The path is carried along in its own format: name the output {0}.</source>
+      <translation>Die Bahn wird in ihrem eigenen Format mitgeführt: Nennen Sie die Ausgabe {0}.</translation>
+    </message>
+    <message>
+      <source>The path is empty.</source>
+      <translation>Die Bahn ist leer.</translation>
+    </message>
+    <message>
+      <source>The path {0} cannot be read: {1}.</source>
+      <translation>Die Bahn {0} ist nicht lesbar: {1}.</translation>
+    </message>
+    <message>
+      <source>The path {0} is no text.</source>
+      <translation>Die Bahn {0} ist kein Text.</translation>
+    </message>
+    <message>
+      <source>The path {0} is of an unknown format: use .csv, or .src and .dat of a KUKA.</source>
+      <translation>Die Bahn {0} hat ein unbekanntes Format: Nehmen Sie .csv, oder .src und .dat eines KUKA.</translation>
+    </message>
+    <message>
+      <source>The path's columns are not known: it needs a header with x, y and z, or 3, 6 or 7 columns.</source>
+      <translation>Die Spalten der Bahn sind unbekannt: Sie braucht eine Kopfzeile mit x, y und z, oder 3, 6 oder 7 Spalten.</translation>
+    </message>
+    <message>
+      <source>The points on the scan and on the part span different triangles: pick the same places in the same order, and check the unit of the scan.</source>
+      <translation>Die Punkte auf dem Scan und auf dem Teil bilden verschiedene Dreiecke: Wählen Sie dieselben Stellen in derselben Reihenfolge, und prüfen Sie die Einheit des Scans.</translation>
+    </message>
+    <message>
+      <source>The points on the {0} lie on a line: pick three that span a triangle.</source>
+      <translation>Die Punkte ({0}) liegen auf einer Geraden: Wählen Sie drei, die ein Dreieck bilden.</translation>
+    </message>
+    <message>
+      <source>The program has no poses with X, Y and Z.</source>
+      <translation>Das Programm hat keine Lagen mit X, Y und Z.</translation>
+    </message>
+    <message>
+      <source>The rebuilt shape is not valid: the displacement is too large or too uneven for this part.</source>
+      <translation>Die neu aufgebaute Form ist ungültig: Die Verschiebung ist zu groß oder zu ungleichmäßig für dieses Teil.</translation>
+    </message>
+    <message>
+      <source>The registration did not converge (the last step was {0} mm): the scan does not hold the part; align it first, or freeze faces.</source>
+      <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
+    </message>
+    <message>
+      <source>The repeated scans do not show the same thing: scan it again without moving it or the sensor.</source>
+      <translation>Die wiederholten Scans zeigen nicht dasselbe: Scannen Sie noch einmal, ohne Gegenstand oder Sensor zu bewegen.</translation>
+    </message>
+    <message>
+      <source>The report {0} cannot be read: {1}.</source>
+      <translation>Der Bericht {0} ist nicht lesbar: {1}.</translation>
+    </message>
+    <message>
+      <source>The report {0} is not JSON: name the file that register wrote with --report.</source>
+      <translation>Der Bericht {0} ist kein JSON: Nennen Sie die Datei, die register mit --report geschrieben hat.</translation>
+    </message>
+    <message>
+      <source>The scan and the model do not overlap, the nearest scan point is {0} mm away: align the scan with the model first.</source>
+      <translation>Scan und Modell überlappen sich nicht, der nächste Scanpunkt ist {0} mm entfernt: Richten Sie den Scan zuerst am Modell aus.</translation>
+    </message>
+    <message>
+      <source>The scan could not be aligned with the model: {0}; check that it shows this part, or leave other objects out.</source>
+      <translation>Der Scan ließ sich nicht am Modell ausrichten: {0}; prüfen Sie, ob er dieses Teil zeigt, oder lassen Sie andere Gegenstände weg.</translation>
+    </message>
+    <message>
+      <source>The scan does not lie on {0}: only {1} of its source points have a scan point within {2} mm (median distance {3} mm); check the scan's unit and alignment.</source>
+      <translation>Der Scan liegt nicht auf {0}: Nur {1} ihrer Quellpunkte haben einen Scanpunkt im Umkreis von {2} mm (mittlerer Abstand {3} mm); prüfen Sie Einheit und Ausrichtung des Scans.</translation>
+    </message>
+    <message>
+      <source>The scan does not lie on {0}: {1} of its points are within {2} mm of the face and at least {3} are needed; check the unit and the alignment of the scan.</source>
+      <translation>Der Scan liegt nicht auf {0}: {1} seiner Punkte sind höchstens {2} mm von der Fläche entfernt, nötig sind mindestens {3}; prüfen Sie Einheit und Ausrichtung des Scans.</translation>
+    </message>
+    <message>
+      <source>The scan does not overlap the part: most of it is farther away than the part is large; check the unit of the scan and align it first.</source>
+      <translation>Der Scan überlappt das Teil nicht: Das meiste ist weiter entfernt, als das Teil groß ist; prüfen Sie die Einheit des Scans und richten Sie ihn zuerst aus.</translation>
+    </message>
+    <message>
+      <source>The scan does not show a flat datum: crop it to the datum alone.</source>
+      <translation>Der Scan zeigt keine ebene Bezugsfläche: Schneiden Sie ihn auf diese zu.</translation>
+    </message>
+    <message>
+      <source>The scan has only {0} points: at least {1} are needed.</source>
+      <translation>Der Scan hat nur {0} Punkte: Nötig sind mindestens {1}.</translation>
+    </message>
+    <message>
+      <source>The scan has {0} points: measuring a sensor takes at least {1}.</source>
+      <translation>Der Scan hat {0} Punkte: Um einen Sensor zu vermessen, braucht es mindestens {1}.</translation>
+    </message>
+    <message>
+      <source>The scan measures {0} mm and the model {1} mm: the scan seems to be in {2}, not in {3} (use --scan-unit {4}).</source>
+      <translation>Der Scan misst {0} mm und das Modell {1} mm: Der Scan ist wohl in {2}, nicht in {3} (--scan-unit {4}).</translation>
+    </message>
+    <message>
+      <source>The scan measures {0} mm and the model {1} mm: they are not of the same part, or in other units.</source>
+      <translation>Der Scan misst {0} mm und das Modell {1} mm: Sie zeigen nicht dasselbe Teil, oder die Einheiten sind andere.</translation>
+    </message>
+    <message>
+      <source>The scan observes no face of the model that may move: align the scan with the model, or name the faces.</source>
+      <translation>Der Scan erfasst keine Fläche des Modells, die sich bewegen darf: Richten Sie den Scan am Modell aus, oder nennen Sie die Flächen.</translation>
+    </message>
+    <message>
+      <source>The scan points near {0} do not form its surface: only {1} of them agree on one; leave the face out, or check the alignment of the scan.</source>
+      <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
+    </message>
+    <message>
+      <source>The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as well, or align the scan to less than half the sheet's thickness first.</source>
+      <translation>Der Scan zeigt nur eine Seite eines dünnen Blechs, und nichts verrät, welche: Scannen Sie auch etwas vom Rand, oder richten Sie den Scan zuerst auf weniger als die halbe Blechdicke genau aus.</translation>
+    </message>
+    <message>
+      <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
+      <translation>Der Scan zeigt zu wenig von {0}: Seine {1} Punkte liegen an {2} Stellen, nötig sind mindestens {3}; lassen Sie die Fläche aus, oder scannen Sie sie von einer anderen Seite.</translation>
+    </message>
+    <message>
+      <source>The scan shows {0}, on the other side, and not {1}: name {2} instead, or register all faces together, which carries {3} along.</source>
+      <translation>Der Scan zeigt {0} auf der anderen Seite und nicht {1}: Nennen Sie stattdessen {2}, oder passen Sie alle Flächen zusammen an, was {3} mitführt.</translation>
+    </message>
+    <message>
+      <source>The scan unit '{0}' is unknown: use one of {1}.</source>
+      <translation>Die Einheit „{0}“ des Scans ist unbekannt: Nehmen Sie eine von {1}.</translation>
+    </message>
+    <message>
+      <source>The scan {0} cannot be read: {1}.</source>
+      <translation>Der Scan {0} ist nicht lesbar: {1}.</translation>
+    </message>
+    <message>
+      <source>The scan {0} does not exist.</source>
+      <translation>Den Scan {0} gibt es nicht.</translation>
+    </message>
+    <message>
+      <source>The scan {0} has no vertices: nothing can be registered to it.</source>
+      <translation>Der Scan {0} hat keine Punkte: Nichts lässt sich an ihn anpassen.</translation>
+    </message>
+    <message>
+      <source>The scan {0} has vertices of an unusual layout: save it as plain points.</source>
+      <translation>Die Punkte des Scans {0} sind ungewöhnlich gespeichert: Speichern Sie ihn als einfache Punkte.</translation>
+    </message>
+    <message>
+      <source>The scan {0} holds a single point: a scan needs many.</source>
+      <translation>Der Scan {0} enthält einen einzigen Punkt: Ein Scan braucht viele.</translation>
+    </message>
+    <message>
+      <source>The scan {0} holds no points{1}: nothing can be registered to it.</source>
+      <translation>Der Scan {0} enthält keine Punkte{1}: Nichts lässt sich an ihn anpassen.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is a folder: name a file.</source>
+      <translation>Der Scan {0} ist ein Ordner: Nennen Sie eine Datei.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is cut off or no STL file: it promises {1} triangles and its length does not fit.</source>
+      <translation>Der Scan {0} ist abgeschnitten oder keine STL-Datei: Er verspricht {1} Dreiecke, und seine Länge passt nicht dazu.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is cut off: its STL text has no end.</source>
+      <translation>Der Scan {0} ist abgeschnitten: Sein STL-Text hat kein Ende.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is cut off: its first line promises {1} points, {2} are there.</source>
+      <translation>Der Scan {0} ist abgeschnitten: Seine erste Zeile verspricht {1} Punkte, {2} sind da.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is cut off: its header promises {1} points, {2} are there.</source>
+      <translation>Der Scan {0} ist abgeschnitten: Sein Kopf verspricht {1} Punkte, {2} sind da.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged or cut off: its E57 sections cannot be read.</source>
+      <translation>Der Scan {0} ist beschädigt oder abgeschnitten: Seine E57-Abschnitte sind nicht lesbar.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged or cut off: its compressed points cannot be unpacked.</source>
+      <translation>Der Scan {0} ist beschädigt oder abgeschnitten: Seine gepackten Punkte lassen sich nicht entpacken.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged or no text of points: line {1} has fewer than {2} values.</source>
+      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: Zeile {1} hat weniger als {2} Werte.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged or no text of points: line {1} holds '{2}' where a number belongs.</source>
+      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: In Zeile {1} steht „{2}“, wo eine Zahl hingehört.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: a corner is not made of three numbers.</source>
+      <translation>Der Scan {0} ist beschädigt: Eine Ecke besteht nicht aus drei Zahlen.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: a point is not made of numbers.</source>
+      <translation>Der Scan {0} ist beschädigt: Ein Punkt besteht nicht aus Zahlen.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: a vertex is not made of numbers.</source>
+      <translation>Der Scan {0} ist beschädigt: Ein Punkt besteht nicht aus Zahlen.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its PCD header is not complete.</source>
+      <translation>Der Scan {0} ist beschädigt: Sein PCD-Kopf ist unvollständig.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its PCD header makes no sense.</source>
+      <translation>Der Scan {0} ist beschädigt: Sein PCD-Kopf ergibt keinen Sinn.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its PLY header has the line '{1}'.</source>
+      <translation>Der Scan {0} ist beschädigt: Sein PLY-Kopf hat die Zeile „{1}“.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its PLY header names no known format.</source>
+      <translation>Der Scan {0} ist beschädigt: Sein PLY-Kopf nennt kein bekanntes Format.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its points have no x, y and z.</source>
+      <translation>Der Scan {0} ist beschädigt: Seine Punkte haben kein x, y und z.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is damaged: its vertices have no x, y and z.</source>
+      <translation>Der Scan {0} ist beschädigt: Seine Punkte haben kein x, y und z.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is empty.</source>
+      <translation>Der Scan {0} ist leer.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is no scan: all its {1} points are the same.</source>
+      <translation>Der Scan {0} ist kein Scan: Alle seine {1} Punkte sind gleich.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is no text of points: no line starts with a number.</source>
+      <translation>Der Scan {0} ist kein Text mit Punkten: Keine Zeile beginnt mit einer Zahl.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not a PCD file, or its header is cut off.</source>
+      <translation>Der Scan {0} ist keine PCD-Datei, oder sein Kopf ist abgeschnitten.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not a PLY file, or its header is cut off.</source>
+      <translation>Der Scan {0} ist keine PLY-Datei, oder sein Kopf ist abgeschnitten.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not a text of points: it holds binary data.</source>
+      <translation>Der Scan {0} ist kein Text mit Punkten: Er enthält binäre Daten.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not an E57 file.</source>
+      <translation>Der Scan {0} ist keine E57-Datei.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not an STL file.</source>
+      <translation>Der Scan {0} ist keine STL-Datei.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is of an unknown format: use one of {1}.</source>
+      <translation>Der Scan {0} hat ein unbekanntes Format: Nehmen Sie eines von {1}.</translation>
+    </message>
+    <message>
+      <source>The seam branches after Edge{0}: {1} both go on from it; name the edges one by one.</source>
+      <translation>Die Naht verzweigt sich nach Edge{0}: {1} setzen sie beide fort; nennen Sie die Kanten einzeln.</translation>
+    </message>
+    <message>
+      <source>The sensor profile {0} cannot be read as JSON.</source>
+      <translation>Das Sensorprofil {0} ist nicht als JSON lesbar.</translation>
+    </message>
+    <message>
+      <source>The sensor profile {0} does not exist: name a file that 'ffds sensor measure' wrote, or one of {1}.</source>
+      <translation>Das Sensorprofil {0} gibt es nicht: Nennen Sie eine Datei, die „ffds sensor measure“ geschrieben hat, oder eines von {1}.</translation>
+    </message>
+    <message>
+      <source>The sensor profile {0} has a sigma that is not positive, or a negative sigma_c or correlation_length.</source>
+      <translation>Das Sensorprofil {0} hat ein sigma, das nicht größer als null ist, oder ein negatives sigma_c oder correlation_length.</translation>
+    </message>
+    <message>
+      <source>The sensor profile {0} needs the numbers {1}, in mm.</source>
+      <translation>Das Sensorprofil {0} braucht die Zahlen {1}, in mm.</translation>
+    </message>
+    <message>
+      <source>The shape contains a scaled instance: apply the scale to its geometry first.</source>
+      <translation>Die Form enthält eine skalierte Instanz: Wenden Sie die Skalierung zuerst auf ihre Geometrie an.</translation>
+    </message>
+    <message>
+      <source>The shape has no faces: FFDS deforms faces of a solid, shell or compound.</source>
+      <translation>Die Form hat keine Flächen: FFDS verformt Flächen eines Körpers, einer Hülle oder eines Verbunds.</translation>
+    </message>
+    <message>
+      <source>The shape is empty: select or load a part with faces.</source>
+      <translation>Die Form ist leer: Wählen oder laden Sie ein Teil mit Flächen.</translation>
+    </message>
+    <message>
+      <source>The shape is not valid.</source>
+      <translation>Die Form ist ungültig.</translation>
+    </message>
+    <message>
+      <source>The shape's BREP text is damaged: a record does not have the expected form.</source>
+      <translation>Der BREP-Text der Form ist beschädigt: Ein Eintrag hat nicht die erwartete Form.</translation>
+    </message>
+    <message>
+      <source>The shape's BREP text is damaged: its sections are not the expected ones.</source>
+      <translation>Der BREP-Text der Form ist beschädigt: Seine Abschnitte sind nicht die erwarteten.</translation>
+    </message>
+    <message>
+      <source>The spacing of a simulated scan must be positive, not {0} mm.</source>
+      <translation>Der Punktabstand eines simulierten Scans muss größer als null sein, nicht {0} mm.</translation>
+    </message>
+    <message>
+      <source>The start of a seam must be a point: three numbers in mm.</source>
+      <translation>Der Anfang einer Naht muss ein Punkt sein: drei Zahlen in mm.</translation>
+    </message>
+    <message>
+      <source>The start of the alignment is no pose: give a (4, 4) matrix of a rotation and a shift in mm.</source>
+      <translation>Der Anfang der Ausrichtung ist keine Lage: Geben Sie eine (4, 4)-Matrix aus einer Drehung und einer Verschiebung in mm an.</translation>
+    </message>
+    <message>
+      <source>The start takes three or more points on the scan and as many on the part, in the same order.</source>
+      <translation>Für den Anfang braucht es mindestens drei Punkte auf dem Scan und ebenso viele auf dem Teil, in derselben Reihenfolge.</translation>
+    </message>
+    <message>
+      <source>The stiffness {0} makes no sense: 1 is the default, use {1} to {2}.</source>
+      <translation>Die Steifigkeit {0} ergibt keinen Sinn: 1 ist die Vorgabe, nehmen Sie {1} bis {2}.</translation>
+    </message>
+    <message>
+      <source>The tolerance for joints must be a length between 0 and 50 mm, not {0}.</source>
+      <translation>Die Toleranz für Stöße muss eine Länge zwischen 0 und 50 mm sein, nicht {0}.</translation>
+    </message>
+    <message>
+      <source>The two faces of the seam lie back to back, so there is no torch direction between them.</source>
+      <translation>Die beiden Flächen der Naht liegen Rücken an Rücken, zwischen ihnen gibt es keine Brennerrichtung.</translation>
+    </message>
+    <message>
+      <source>The velocity must lie between 0.01 and 2000 mm/s, not {0}.</source>
+      <translation>Die Geschwindigkeit muss zwischen 0,01 und 2000 mm/s liegen, nicht bei {0}.</translation>
+    </message>
+    <message>
+      <source>The views see nothing of the part: turn or aim them at it.</source>
+      <translation>Die Ansichten sehen nichts vom Teil: Richten Sie sie darauf.</translation>
+    </message>
+    <message>
+      <source>The {0} has a face or edge without a sound name, flag and band.</source>
+      <translation>Der Bericht ({0}) hat eine Fläche oder Kante ohne Namen, Kennzeichen und Band.</translation>
+    </message>
+    <message>
+      <source>The {0} has no faces: name the file that register wrote with --report.</source>
+      <translation>Der Bericht ({0}) hat keine Flächen: Nennen Sie die Datei, die register mit --report geschrieben hat.</translation>
+    </message>
+    <message>
+      <source>The {0} must lie within ±80°, not {1}°.</source>
+      <translation>Der Winkel „{0}“ muss innerhalb von ±80° liegen, nicht bei {1}°.</translation>
+    </message>
+    <message>
+      <source>The {0} of a seam must be at least 0.001 mm, not {1}.</source>
+      <translation>Der Wert „{0}“ einer Naht muss mindestens 0,001 mm sein, nicht {1}.</translation>
+    </message>
+    <message>
+      <source>The {0} of a simulated scan is a share between 0 and 1, not {1}.</source>
+      <translation>Der Anteil ({0}) eines simulierten Scans liegt zwischen 0 und 1, nicht bei {1}.</translation>
+    </message>
+    <message>
+      <source>The {0} {1} leads through the part: shorten it, lean the torch or weld from another start.</source>
+      <translation>Der Weg „{0}“ {1} führt durch das Teil: Kürzen Sie ihn, neigen Sie den Brenner, oder schweißen Sie von einem anderen Anfang aus.</translation>
+    </message>
+    <message>
+      <source>There is no {0}: the model has Edge1 to Edge{1}.</source>
+      <translation>{0} gibt es nicht: Das Modell hat Edge1 bis Edge{1}.</translation>
+    </message>
+    <message>
+      <source>There is no {0}: the shape has Face1 to Face{1}.</source>
+      <translation>{0} gibt es nicht: Die Form hat Face1 bis Face{1}.</translation>
+    </message>
+    <message>
+      <source>This FreeCAD writes BREP text of a version not known here: use FreeCAD 0.20 to 1.0.</source>
+      <translation>Dieses FreeCAD schreibt BREP-Text einer hier unbekannten Version: Nehmen Sie FreeCAD 0.20 bis 1.0.</translation>
+    </message>
+    <message>
+      <source>Two outputs have the same name: choose different ones.</source>
+      <translation>Zwei Ausgaben haben denselben Namen: Wählen Sie verschiedene.</translation>
+    </message>
+    <message>
+      <source>What neighbouring points share reaches farther than {0} mm, too far for a scan of this size: the datum is not flat, or too small.</source>
+      <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
+    </message>
+    <message>
+      <source>a body of revolution about the axis ({0}, {1}, {2})</source>
+      <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
+    </message>
+    <message>
+      <source>ambiguous ({0} poses): {1}</source>
+      <translation>mehrdeutig ({0} Lagen): {1}</translation>
+    </message>
+    <message>
+      <source>an unknown number of</source>
+      <translation>eine unbekannte Zahl</translation>
+    </message>
+    <message>
+      <source>edges</source>
+      <translation>Kanten</translation>
+    </message>
+    <message>
+      <source>faces</source>
+      <translation>Flächen</translation>
+    </message>
+    <message>
+      <source>fewer than {0} points of the scan belong together</source>
+      <translation>weniger als {0} Punkte des Scans gehören zusammen</translation>
+    </message>
+    <message>
+      <source>is open</source>
+      <translation>ist offen</translation>
+    </message>
+    <message>
+      <source>is where a closed face meets itself</source>
+      <translation>ist dort, wo eine geschlossene Fläche auf sich selbst trifft,</translation>
+    </message>
+    <message>
+      <source>nominal part</source>
+      <translation>Nennteil</translation>
+    </message>
+    <message>
+      <source>only {0} % of the scan lies on the part and only {1} % of the part is covered at the best pose found</source>
+      <translation>in der besten gefundenen Lage liegen nur {0} % des Scans auf dem Teil, und nur {1} % des Teils sind bedeckt</translation>
+    </message>
+    <message>
+      <source>part</source>
+      <translation>Teil</translation>
+    </message>
+    <message>
+      <source>scan</source>
+      <translation>Scan</translation>
+    </message>
+    <message>
+      <source>the same after a turn of {0}</source>
+      <translation>gleich nach einer Drehung von {0}</translation>
+    </message>
+    <message>
+      <source>the scan fits in several poses alike</source>
+      <translation>der Scan passt in mehreren Lagen gleich gut</translation>
+    </message>
+    <message>
+      <source>the scan measures {0} mm and the part {1} mm, which no usual unit explains</source>
+      <translation>der Scan misst {0} mm und das Teil {1} mm, was keine übliche Einheit erklärt</translation>
+    </message>
+    <message>
+      <source>vertices</source>
+      <translation>Ecken</translation>
+    </message>
+    <message>
+      <source>{0} and {1} meet at one point, and a seam does not branch</source>
+      <translation>{0} und {1} treffen sich in einem Punkt, und eine Naht verzweigt sich nicht</translation>
+    </message>
+    <message>
+      <source>{0} cannot be compared with itself: choose the nominal part, or none.</source>
+      <translation>{0} lässt sich nicht mit sich selbst vergleichen: Wählen Sie das Nennteil, oder keines.</translation>
+    </message>
+    <message>
+      <source>{0} cannot be computed on {1}: nothing was re-pointed.</source>
+      <translation>{0} lässt sich auf {1} nicht berechnen: Nichts wurde umgehängt.</translation>
+    </message>
+    <message>
+      <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
+      <translation>{0} kann nicht zugleich verformt und fixiert werden: Streichen Sie die Fläche aus einer der beiden Listen.</translation>
+    </message>
+    <message>
+      <source>{0} does not have the faces and edges of {1}: recompute it first.</source>
+      <translation>{0} hat nicht die Flächen und Kanten von {1}: Berechnen Sie es zuerst neu.</translation>
+    </message>
+    <message>
+      <source>{0} has a lattice of {1} × {2} control points: give both numbers, or 0 for both to choose them from the data.</source>
+      <translation>{0} hat ein Gitter aus {1} × {2} Kontrollpunkten: Geben Sie beide Zahlen an, oder für beide 0, dann entscheiden die Daten.</translation>
+    </message>
+    <message>
+      <source>{0} has lost its part: choose one in its properties.</source>
+      <translation>{0} hat kein Teil mehr: Wählen Sie eines in den Eigenschaften.</translation>
+    </message>
+    <message>
+      <source>{0} has lost its {1}: choose one in its properties.</source>
+      <translation>{0} hat nichts mehr für: {1}. Wählen Sie es in den Eigenschaften.</translation>
+    </message>
+    <message>
+      <source>{0} has no adjacent faces: a torch direction needs two.</source>
+      <translation>{0} hat keine angrenzenden Flächen: Eine Brennerrichtung braucht zwei.</translation>
+    </message>
+    <message>
+      <source>{0} has no boundary in its (u, v) parameters: repair the shape first.</source>
+      <translation>{0} hat keinen Rand in ihren Parametern (u, v): Reparieren Sie zuerst die Form.</translation>
+    </message>
+    <message>
+      <source>{0} has no object '{1}' with faces; it has {2}.</source>
+      <translation>{0} hat kein Objekt „{1}“ mit Flächen; es hat {2}.</translation>
+    </message>
+    <message>
+      <source>{0} has no object with faces.</source>
+      <translation>{0} hat kein Objekt mit Flächen.</translation>
+    </message>
+    <message>
+      <source>{0} has no shape: select a part or its faces.</source>
+      <translation>{0} hat keine Form: Wählen Sie ein Teil oder seine Flächen.</translation>
+    </message>
+    <message>
+      <source>{0} has no shape: select a part.</source>
+      <translation>{0} hat keine Form: Wählen Sie ein Teil.</translation>
+    </message>
+    <message>
+      <source>{0} has other faces than before, and {1} is not among them: choose the faces anew.</source>
+      <translation>{0} hat andere Flächen als vorher, und {1} ist nicht darunter: Wählen Sie die Flächen neu.</translation>
+    </message>
+    <message>
+      <source>{0} has {1} adjacent faces: a torch direction needs two.</source>
+      <translation>{0} hat {1} angrenzende Flächen: Eine Brennerrichtung braucht zwei.</translation>
+    </message>
+    <message>
+      <source>{0} holds no points: import the scan anew.</source>
+      <translation>{0} enthält keine Punkte: Importieren Sie den Scan neu.</translation>
+    </message>
+    <message>
+      <source>{0} holds no seams: find the seams of a part first.</source>
+      <translation>{0} enthält keine Nähte: Suchen Sie zuerst die Nähte eines Teils.</translation>
+    </message>
+    <message>
+      <source>{0} holds several objects: pick one with --object, of {1}.</source>
+      <translation>{0} enthält mehrere Objekte: Wählen Sie mit --object eines von {1}.</translation>
+    </message>
+    <message>
+      <source>{0} is a point (a pole or an apex) and no seam: name an edge with a length.</source>
+      <translation>{0} ist ein Punkt (ein Pol oder eine Spitze) und keine Naht: Nennen Sie eine Kante mit einer Länge.</translation>
+    </message>
+    <message>
+      <source>{0} is computed from other things and cannot be replaced in place: make a simple copy of it, or an as-built part beside it.</source>
+      <translation>{0} wird aus anderem berechnet und lässt sich nicht an Ort und Stelle ersetzen: Machen Sie eine einfache Kopie davon, oder ein Ist-Teil daneben.</translation>
+    </message>
+    <message>
+      <source>{0} is no as-built part of this workbench.</source>
+      <translation>{0} ist kein Ist-Teil dieses Arbeitsbereichs.</translation>
+    </message>
+    <message>
+      <source>{0} is no point cloud: select a Points object as the scan.</source>
+      <translation>{0} ist keine Punktwolke: Wählen Sie ein Punkte-Objekt als Scan.</translation>
+    </message>
+    <message>
+      <source>{0} is not the last feature of {1}: select the body as it is now.</source>
+      <translation>{0} ist nicht das letzte Element von {1}: Wählen Sie den Körper, wie er jetzt ist.</translation>
+    </message>
+    <message>
+      <source>{0} is only {1} mm long: a seam needs at least {2} mm.</source>
+      <translation>{0} ist nur {1} mm lang: Eine Naht braucht mindestens {2} mm.</translation>
+    </message>
+    <message>
+      <source>{0} is scaled by its placement: make a simple copy of it first.</source>
+      <translation>{0} ist durch seine Platzierung skaliert: Machen Sie zuerst eine einfache Kopie davon.</translation>
+    </message>
+    <message>
+      <source>{0} lies in a part: drag it out into the document before aligning it.</source>
+      <translation>{0} liegt in einem Bauteil: Ziehen Sie den Scan vor dem Ausrichten heraus ins Dokument.</translation>
+    </message>
+    <message>
+      <source>{0} lies on another part over {1} mm only, too short for a seam.</source>
+      <translation>{0} liegt nur auf {1} mm an einem anderen Teil, zu kurz für eine Naht.</translation>
+    </message>
+    <message>
+      <source>{0} was not observed by the scan over {1} its length ({2}): check it before welding.</source>
+      <translation>{0} wurde vom Scan auf {1} ihrer Länge nicht erfasst ({2}): Prüfen Sie sie vor dem Schweißen.</translation>
+    </message>
+    <message>
+      <source>{0} would fold over: the displacement is too large for its size.</source>
+      <translation>{0} würde sich überschlagen: Die Verschiebung ist zu groß für diese Fläche.</translation>
+    </message>
+    <message>
+      <source>{0} would fold over: the scan does not determine it; freeze it or scan it better.</source>
+      <translation>{0} würde sich überschlagen: Der Scan bestimmt sie nicht; fixieren Sie die Fläche, oder scannen Sie sie besser.</translation>
+    </message>
+    <message>
+      <source>{0} {1} and has one adjacent face only: a torch direction needs two.</source>
+      <translation>{0} {1} und hat nur eine angrenzende Fläche: Eine Brennerrichtung braucht zwei.</translation>
+    </message>
+    <message>
+      <source>{0}: name the edges of one path.</source>
+      <translation>{0}: Nennen Sie die Kanten eines Wegs.</translation>
+    </message>
+    <message>
+      <source>{0}: {1}</source>
+      <translation>{0}: {1}</translation>
+    </message>
+    <message>
+      <source>{0}° about ({1}, {2}, {3})</source>
+      <translation>{0}° um ({1}, {2}, {3})</translation>
+    </message>
+  </context>
+  <context>
     <name>Workbench</name>
     <message>
       <source>Deform a CAD model to a scan; its topology stays</source>

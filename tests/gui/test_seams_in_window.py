@@ -93,8 +93,10 @@ def test_joints_are_found_by_a_tolerance_and_become_trajectories(hands, pipe, mo
     target = tmp_path / "weld.src"
     monkeypatch.setattr(QtWidgets.QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
     select(hands, seams)
+    said = hands.answer(lambda dialog: dialog.accept())
     hands.command(ExportProgram)
-    hands.until(target.exists)
+    hands.until(lambda: said)
+    assert "leads through the part" in said[0]
     assert target.with_suffix(".dat").exists() and FreeCAD.ActiveDocument is document
     document.saveAs(str(tmp_path / "pipe.FCStd"))
     FreeCAD.closeDocument(document.Name)

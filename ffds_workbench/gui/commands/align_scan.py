@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..running import call, in_background, name_of, tell
-from ..translating import tr
+from ..translating import said, tr
 from .command import Command, part_and_scan
 
 
@@ -30,4 +30,4 @@ class AlignScan(Command):
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
         if found.alignment.poses and found.alignment.confidence < 0.5:
             tell(tr("The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points."
-                    ).format(reason=found.alignment.text))
+                    ).format(reason=said(found.alignment.text)))

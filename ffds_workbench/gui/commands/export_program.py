@@ -7,8 +7,8 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from ..qt import QtWidgets
-from ..running import ACTIONS, in_background, name_of
-from ..translating import tr
+from ..running import in_background, name_of, record, tell
+from ..translating import said, tr
 from .command import Command
 from .find_seams import selected_seams
 
@@ -47,5 +47,8 @@ class ExportProgram(Command):
             return
         path += "" if Path(path).suffix else _formats().get(kind, ".src")
         in_background(tr("Measuring the seams"), job_of(item).run)
-        Gui.addModule(ACTIONS)
-        Gui.doCommand(f"{ACTIONS}.export_program({name_of(item)}, {path!r})")
+        record(f"export_program({name_of(item)}, {path!r})", "notes")
+        import __main__ as console
+
+        if console.notes:
+            tell("\n".join(map(said, console.notes)))

@@ -7,7 +7,7 @@ import FreeCADGui as Gui
 from ..qt import QtWidgets
 from ..running import call, in_background, name_of, tell
 from ..selection import chosen
-from ..translating import tr
+from ..translating import said, tr
 from .command import Command, one_part
 
 _TOLERANCE = 0.5
@@ -45,7 +45,7 @@ class FindSeams(Command):
         which = f"edges={list(edges)}" if edges else f"tolerance={tolerance:g}"
         call(part.Document, "Find weld seams", f"make_seams({name_of(part)}, {which})")
         if plan.notes:
-            tell("\n".join(plan.notes))
+            tell("\n".join(map(said, plan.notes)))
 
 
 def selected_edges() -> tuple[str, ...]:
