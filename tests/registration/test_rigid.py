@@ -112,6 +112,20 @@ def test_rims_are_where_the_surface_ends():
     assert at_ends.all() and len(rims.points) > 100
 
 
+def test_normals_of_a_thin_sheet_keep_their_side_around_its_rim():
+    """A rimmed plate 1.5 mm thick, seen on both sides: where it is flat each point's outside is known."""
+    shape = Part.makeBox(80, 60, 12).cut(Part.makeBox(77, 57, 12, FreeCAD.Vector(1.5, 1.5, 1.5)))
+    views = (View((0.3, 0.2, 1.0)), View((-0.5, 0.4, -1.0)), View((-0.6, -0.6, 0.6)))
+    scan = simulate(sensor_target_of(shape), SensorSettings(spacing=0.4, views=views, seed=2)).points
+    for seed in range(4):
+        sketch = sketch_of(apply(anywhere(scan, seed), scan), np.random.default_rng(seed))
+        back = np.linalg.inv(anywhere(scan, seed))
+        points, normals = apply(back, sketch.points), sketch.normals @ back[:3, :3].T
+        flat = (np.abs(points[:, :2] - (40, 30)) < (35, 25)).all(axis=1) & (sketch.piece == 0)
+        side = normals[flat, 2] * np.where(points[flat, 2] > 0.75, 1.0, -1.0)
+        assert flat.sum() > 500 and abs(np.mean(side > 0) - 0.5) > 0.47     # noise turns single ones
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("mode", ["fine", "global"])
 def test_finds_the_pose(bracket, mode, seed):

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from ..splines import Array
+from .sides import turn_to_one_side
 
 _POOL = 40_000
 _POINTS, _FINER = 2_000, 4
@@ -23,8 +22,6 @@ _ROUGH = 0.22
 _SPARSE, _ALONE = 4.0, 2.0
 """A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
 its neighbours' own are."""
-_SURE = 0.6
-"""Cosine below which two neighbours say nothing about each other's side."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +84,7 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
         normals, roughness = _local_planes(pool[index])
         if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) < _ROUGH:
             break
-    normals, piece = _turn_to_one_side(points, normals)
+    normals, piece = turn_to_one_side(points, normals)
     even = thin(points, count)
     return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool)
 
@@ -151,48 +148,6 @@ def _local_planes(neighbourhoods: Array, rounds: int = 2) -> tuple[Array, Array]
             weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
     freedom = np.maximum(total - 3.0, 1.0)
     return vectors[:, :, 0], np.sqrt(np.maximum(values[:, 0], 0.0) / freedom)
-
-
-def _turn_to_one_side(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:
-    """Flip normals so that neighbours agree, along the spanning tree of the surest steps.
-
-    Hoppe et al. (Surface reconstruction from unorganized points, 1992) compare n·n', which says nothing across a right
-    angle; here n is first reflected along the step e, n·n' − 2 (n·e)(n'·e), as a surface does that turns by an arc
-    (König and Gumhold, Consistent propagation of normal orientations in point clouds, 2009).
-    """
-    count = len(points)
-    distance, index = cKDTree(points).query(points, k=min(neighbours, count))
-    start, end = np.repeat(np.arange(count), index.shape[1] - 1), index[:, 1:].ravel()
-    length = distance[:, 1:].ravel()
-    direction = (points[end] - points[start]) / np.maximum(length, 1e-12)[:, None]
-    agrees = _agreement(normals[start], normals[end], direction)
-    linked = (length < 4.0 * np.median(length)) & (np.abs(agrees) > _SURE)
-    start, end, agrees = start[linked], end[linked], agrees[linked]
-    graph = coo_matrix((1.0 + 1e-6 - np.abs(agrees), (start, end)), shape=(count, count)).tocsr()
-    pieces, piece = connected_components(graph, directed=False)
-    spanning = minimum_spanning_tree(graph.maximum(graph.T))
-    spanning = spanning + spanning.T
-    sign = np.ones(count)
-    sizes = np.bincount(piece, minlength=pieces)
-    for number in np.flatnonzero(sizes > 1):
-        order, parent = breadth_first_order(spanning, int(np.argmax(piece == number)), directed=False)
-        child = order[1:]
-        parent = parent[child]
-        along = points[child] - points[parent]
-        along /= np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
-        agrees = _agreement(normals[child], normals[parent], along)
-        for node, above, flip in zip(child.tolist(), parent.tolist(), (agrees < 0).tolist(), strict=True):
-            sign[node] = -sign[above] if flip else sign[above]
-    rank = np.empty(pieces, dtype=np.intp)
-    rank[np.argsort(-sizes)] = np.arange(pieces)
-    return normals * sign[:, None], rank[piece]
-
-
-def _agreement(first: Array, second: Array, direction: Array) -> Array:
-    """n·n' − 2 (n·e)(n'·e) of unit vectors (n, 3)."""
-    dot, rise, fall = (np.einsum("ni,ni->n", a, b) for a, b in ((first, second), (first, direction),
-                                                                 (second, direction)))
-    return dot - 2.0 * rise * fall
 
 
 def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) -> Plane | None:
