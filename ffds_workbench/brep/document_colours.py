@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-Colour = tuple[float, float, float, float]
-"""Red, green, blue and transparency, 0…1, as FreeCAD's DiffuseColor has them."""
+from ..compat import Colour, face_colours
 
 _GUI = "GuiDocument.xml"
 _DOCUMENT = """<?xml version='1.0' encoding='utf-8'?>
@@ -41,15 +40,7 @@ def read(path: Path, name: str) -> tuple[Colour, ...]:
             return ()
         root = ElementTree.fromstring(archive.read(_GUI))
         provider = root.find(f".//ViewProvider[@name='{name}']")
-        colours = None if provider is None else provider.find(".//Property[@name='DiffuseColor']/ColorList")
-        file = "" if colours is None else colours.get("file", "")
-        if file not in archive.namelist():
-            return ()
-        packed = np.frombuffer(archive.read(file), "<u4")
-    if len(packed) < 2 or packed[0] != len(packed) - 1:
-        return ()
-    channels = packed[1:, None] >> np.array([24, 16, 8, 0], dtype=np.uint32) & 255
-    return tuple(tuple(row) for row in (channels / 255.0).tolist())
+        return () if provider is None else face_colours(provider, archive)
 
 
 def add_views(path: Path, colours: Mapping[str, Sequence[Colour]]) -> None:

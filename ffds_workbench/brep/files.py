@@ -15,6 +15,7 @@ from pathlib import Path
 import FreeCAD
 import Part
 
+from ..compat import write_step
 from ..errors import InputError, RefusedError
 from . import document_colours, step_text
 from .step_text import Decoration
@@ -197,7 +198,7 @@ def write(model: Model, path: Path) -> None:
 
 def _write_step(model: Model, path: Path) -> None:
     try:
-        model.shape.exportStep(str(path))
+        write_step(model.shape, path)
     except (OSError, RuntimeError, Part.OCCError) as error:
         raise RefusedError(f"The STEP file could not be written: {error}.") from error
     if not path.exists() or not step_text.is_complete(path):

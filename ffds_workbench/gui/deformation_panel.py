@@ -20,7 +20,7 @@ from .preferences import preferences
 from .preview import Patch, figures
 from .preview_drawing import PreviewDrawing
 from .preview_runner import PreviewRunner
-from .qt import QtCore, QtWidgets
+from .qt import QtCore, QtWidgets, number_of
 from .selection import Chosen, chosen, scans_of
 from .translating import said, tr
 
@@ -252,7 +252,7 @@ class DeformationPanel:
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
-        return int(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
+        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 
 
 def _arguments(settings: Settings) -> str:

@@ -22,7 +22,7 @@ from .legend import Legend
 from .overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from .panel import choice, length, named, wrapped
 from .preferences import preferences
-from .qt import QtWidgets
+from .qt import QtWidgets, number_of
 from .translating import tr
 
 Array = NDArray[np.float64]
@@ -135,7 +135,7 @@ class DeviationPanel:
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """Close."""
-        return int(QtWidgets.QDialogButtonBox.Close)
+        return number_of(QtWidgets.QDialogButtonBox.Close)
 
 
 def _deviations(item: api.Deviation) -> Array:

@@ -13,7 +13,7 @@ from ..objects.manual_alignment import prepare
 from . import running
 from .overlay import Overlay, points_node
 from .panel import ProgressBar, named, wrapped
-from .qt import QtCore, QtWidgets
+from .qt import QtCore, QtWidgets, number_of
 from .translating import said, tr
 
 _PAIRS = 3
@@ -179,7 +179,7 @@ class PointPairsPanel:
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
-        return int(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
+        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 
 
 def _names() -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .. import RESOURCES
+from ..compat import Stateless
 
 COLOUR_BY = ("Verdict", "Lateral", "Normal", "Longitudinal", "Gap", "Opening", "Rotation")
 _PROPERTIES = (("App::PropertyEnumeration", "ColourBy", "What colours the seams", list(COLOUR_BY)),
@@ -21,7 +22,7 @@ def attach(item: Any) -> None:
     SeamsView(item.ViewObject)
 
 
-class SeamsView:
+class SeamsView(Stateless):
     """View provider of `Seams`: draws them coloured by their figures or their verdict, with a legend."""
 
     def __init__(self, vobj: Any) -> None:
@@ -76,12 +77,3 @@ class SeamsView:
     def claimChildren(self) -> list:  # noqa: N802
         """The part stays where it is in the tree."""
         return []
-
-    def dumps(self) -> None:
-        """Nothing to save."""
-
-    def loads(self, state: object) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps
-    __setstate__ = loads

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .. import RESOURCES
+from ..compat import Stateless
 from ..objects.seams import is_seams
 from . import seams_view
 
@@ -23,7 +24,7 @@ def attach(item: Any, source: Any) -> None:
             setattr(ours, name, getattr(theirs, name))
 
 
-class AsBuiltView:
+class AsBuiltView(Stateless):
     """View provider of `AsBuilt`: opens its panel, and draws its control lattices where ``ShowLattice`` is set."""
 
     def __init__(self, vobj: Any) -> None:
@@ -87,12 +88,3 @@ class AsBuiltView:
 
         open_panel(vobj.Object.Document, item=vobj.Object)
         return True
-
-    def dumps(self) -> None:
-        """Nothing to save."""
-
-    def loads(self, state: object) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps
-    __setstate__ = loads

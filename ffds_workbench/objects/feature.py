@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from ..compat import Stateless
+
 READ_ONLY, HIDDEN = 1, 4
 """Property attributes as ``addProperty`` takes them."""
 
@@ -21,7 +23,7 @@ class Property:
     attributes: int = 0
 
 
-class Feature:
+class Feature(Stateless):
     """Base of the proxies. A proxy holds nothing that has to be saved: everything is in the properties."""
 
     SCHEMA = 1
@@ -44,12 +46,3 @@ class Feature:
     def onDocumentRestored(self, obj: Any) -> None:  # noqa: N802
         """A document was opened: bring its object up to this version."""
         self.ensure_properties(obj)
-
-    def dumps(self) -> None:
-        """Nothing to save."""
-
-    def loads(self, state: object) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD before 0.21 calls these names
-    __setstate__ = loads

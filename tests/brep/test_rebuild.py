@@ -18,6 +18,7 @@ from FreeCAD import Placement, Rotation, Vector
 from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.displacement import FaceDisplacement
 from ffds_workbench.brep.rebuild import rebuild
+from ffds_workbench.compat import write_step
 from ffds_workbench.errors import RefusedError
 
 GAP = 1e-5
@@ -203,12 +204,10 @@ def test_a_warp_of_the_whole_keeps_everything_but_the_points(name, tmp_path):
     assert tolerance(result) <= max(tolerance(nominal), 1e-3)
     if name in BOOLEAN_CHECK:
         assert boolean_errors(result) <= boolean_errors(nominal)
-    result.exportStep(str(tmp_path / "result.step"))
-    nominal.exportStep(str(tmp_path / "nominal.step"))
+    write_step(result, tmp_path / "result.step")
+    write_step(nominal, tmp_path / "nominal.step")
     back = [Part.read(str(tmp_path / f"{which}.step")) for which in ("result", "nominal")]
     assert back[0].isValid()
-    if name == "fused" and tuple(map(int, Part.OCC_VERSION.split(".")[:2])) >= (7, 8):
-        pytest.xfail("OCCT 7.8 drops the seam of a part of a sphere that is a B-spline from a STEP file")
     assert counts(back[0]) == counts(back[1])
 
 

@@ -15,6 +15,14 @@ from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.objects import actions, scans
 from ffds_workbench.objects.repointing import references
 
+SUPPORT = "Support" if FreeCAD.Version()[0] == "0" else "AttachmentSupport"
+
+
+def attach(item, support, mode: str) -> None:
+    item.addExtension("Part::AttachExtensionPython")
+    setattr(item, SUPPORT, [support])
+    item.MapMode = mode
+
 
 @pytest.fixture
 def lifted(monkeypatch):
@@ -30,11 +38,9 @@ def lifted(monkeypatch):
     cut = document.addObject("Part::Cut", "Cut")
     cut.Base, cut.Tool = plate, drill
     plane = document.addObject("Part::Plane", "Plane")
-    plane.addExtension("Part::AttachExtensionPython")
-    plane.Support, plane.MapMode = [(plate, "Vertex2")], "Translate"
+    attach(plane, (plate, "Vertex2"), "Translate")
     flat = document.addObject("Part::Plane", "Flat")
-    flat.addExtension("Part::AttachExtensionPython")
-    flat.Support, flat.MapMode = [(plate, "Face6")], "FlatFace"
+    attach(flat, (plate, "Face6"), "FlatFace")
     group = document.addObject("App::Part", "Group")
     link = document.addObject("App::Link", "Link")
     link.LinkedObject = plate
@@ -54,15 +60,15 @@ def test_a_cut_and_an_attachment_follow_and_one_undo_takes_it_back(lifted):
     changed = actions.repoint(item)
     document.commitTransaction()
     assert {user.Name for user in changed} == {"Cut", "Plane"}
-    assert cut.Base is item and plane.Support == [(item, ("Vertex2",))] and link.LinkedObject is plate
+    assert cut.Base is item and getattr(plane, SUPPORT) == [(item, ("Vertex2",))] and link.LinkedObject is plate
     assert cut.isValid() and cut.Shape.distToShape(Part.Vertex(27, 20, 20))[0] == pytest.approx(14.03, abs=0.02)
     flat = document.getObject("Flat")
-    assert flat.isValid() and flat.Support == [(plate, ("Face6",))], "it needs a face that is flat"
+    assert flat.isValid() and getattr(flat, SUPPORT) == [(plate, ("Face6",))], "it needs a face that is flat"
     assert [reference.item for reference in references(item)] == [flat] and item.Source is plate
     with pytest.raises(RefusedError, match="Flat cannot be computed"):
         actions.repoint(item)
     document.undo()
-    assert cut.Base is plate and plane.Support == [(plate, ("Vertex2",))]
+    assert cut.Base is plate and getattr(plane, SUPPORT) == [(plate, ("Vertex2",))]
 
 
 def test_what_the_part_is_made_from_does_not_turn_in_a_circle(lifted):
