@@ -3,7 +3,8 @@
 # tests/debian13.sh DIR: the whole test suite with FreeCAD 1.0, in a Debian 13 of its own.
 #
 # Builds a Debian 13 (trixie) in the folder DIR, from the mirror and with the settings of this machine's apt, and runs
-# ./ffds test there on a clone of this checkout. Run again, it takes the system that is there and a new clone.
+# ./ffds test there on a clone of this checkout. Run again, it takes the system that is there and a new clone. The types
+# are left out there: numpy 2 describes its arrays in another way than numpy 1, for which they are written.
 # Needs root, debootstrap and about 4 GB; DIR can be deleted afterwards.
 set -eu
 
@@ -41,6 +42,7 @@ bind() {
     mounted="$system/$2 $mounted"
 }
 bind /proc proc
+bind /dev/shm dev/shm
 if [ -d "$root/../shared" ]; then
     bind "$root/../shared" srv/shared
     mount -o remount,ro,bind "$system/srv/shared"
