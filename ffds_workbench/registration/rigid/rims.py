@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 from scipy.spatial import cKDTree
 
 from ..face import FaceGeometry
@@ -15,6 +16,10 @@ from ..splines import Array
 from .trimmed import inside_trims
 
 _MOST_PER_FACE = 1500
+_VOXELS = 80
+"""Of the grid that tells which points lie near rims, along the part."""
+_STRETCH = 8
+"""Points of a stretch of rim, half the spacing of the part's samples apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,16 +30,77 @@ class Rims:
     ----------
     points : (n, 3) in mm
     outwards : (n, 3) unit vectors in the tangent plane of the face, across the edge, away from the face
+    normals : (n, 3) outward unit vectors of the face
     face : (n,) index of the face
+    stretch : (n,) number of the short stretch of edge, some samples long, that the point belongs to
+    step : distance in mm between neighbours on an edge
     """
 
     points: Array
     outwards: Array
+    normals: Array
     face: NDArray[np.intp]
+    stretch: NDArray[np.intp]
+    step: float
 
     @cached_property
     def tree(self) -> cKDTree:
         return cKDTree(self.points)
+
+    @cached_property
+    def middles(self) -> Array:
+        """Middle of each stretch; (m, 3) in mm."""
+        return self._means(self.points)
+
+    @cached_property
+    def ways(self) -> Array:
+        """Direction out of the face at each stretch; (m, 3) unit vectors."""
+        means = self._means(self.outwards)
+        return means / np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-12)
+
+    def _means(self, values: Array) -> Array:
+        count = np.maximum(np.bincount(self.stretch), 1)
+        return np.stack([np.bincount(self.stretch, values[:, k]) / count for k in range(3)], axis=1)
+
+    @cached_property
+    def partner(self) -> NDArray[np.intp]:
+        """For each point the one beside it on the other face of the same edge, itself where there is none; (n,)."""
+        near = self.tree.query(self.points, k=min(4, len(self.points)))[1].reshape(len(self.points), -1)
+        other = self.face[near] != self.face[:, None]
+        beside = np.linalg.norm(self.points[near] - self.points[:, None], axis=2) < self.step
+        found = other & beside
+        return np.where(found.any(axis=1), near[np.arange(len(near)), found.argmax(axis=1)], np.arange(len(near)))
+
+    @property
+    def length_of_stretch(self) -> float:
+        """In mm."""
+        return _STRETCH * self.step
+
+    @cached_property
+    def reach(self) -> float:
+        """Distance in mm up to which ``near`` leaves no point out: the edge length of its voxels."""
+        return float(np.ptp(self.points, axis=0).max()) / _VOXELS
+
+    @cached_property
+    def _beside(self) -> NDArray[np.bool_]:
+        """Which voxels touch one that holds a point; (_VOXELS + 4,) * 3."""
+        held = np.zeros((_VOXELS + 4,) * 3, dtype=bool)
+        held[tuple(self._voxel(self.points).T)] = True
+        return np.asarray(binary_dilation(held, np.ones((3, 3, 3))))
+
+    def _voxel(self, points: Array) -> NDArray[np.int32]:
+        low = self.points.min(axis=0) - 2.0 * self.reach
+        return np.clip((points - low) / self.reach, 0, _VOXELS + 3).astype(np.int32)
+
+    def near(self, points: Array) -> NDArray[np.intp]:
+        """Indices of the points that may lie near a rim, without a search for the nearest."""
+        x, y, z = self._voxel(points).T
+        return np.flatnonzero(self._beside[x, y, z])
+
+    @lru_cache(maxsize=8)  # noqa: B019
+    def clear(self, depth: float) -> NDArray[np.bool_]:
+        """At which points no other rim is nearer to what lies ``depth`` mm inside the face; (n,)."""
+        return self.tree.query(self.points - depth * self.outwards)[0] > 0.9 * depth
 
     def overshoot(self, points: Array, face: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
         """How far points stick out of the face they are matched with, beyond its rim.
@@ -69,7 +135,7 @@ def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacin
     spacing : distance in mm between the samples
     """
     pieces = [_edge_points(face, k, 0.5 * spacing) for k, face in enumerate(faces)]
-    places, outwards, outer_normals, face = (np.concatenate(column) for column in zip(*pieces, strict=True))
+    places, outwards, outer_normals, face, part = (np.concatenate(column) for column in zip(*pieces, strict=True))
     tree = cKDTree(points)
     ahead = places + 1.2 * spacing * outwards
     distance, index = tree.query(ahead, k=4, distance_upper_bound=1.5 * spacing)
@@ -78,13 +144,16 @@ def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacin
     beyond = np.einsum("nki,ni->nk", padded_points[index] - places[:, None], outwards) > 0.3 * spacing
     smooth = np.einsum("nki,ni->nk", padded_normals[index], outer_normals) > 0.8
     on = (np.isfinite(distance) & beyond & smooth).any(axis=1)
-    return Rims(places[~on], outwards[~on], face[~on])
+    stretch = np.unique(np.stack([face, part])[:, ~on], axis=1, return_inverse=True)[1]
+    return Rims(places[~on], outwards[~on], outer_normals[~on], face[~on], stretch, 0.5 * spacing)
 
 
-def _edge_points(face: FaceGeometry, index: int, step: float) -> tuple[Array, Array, Array, NDArray[np.intp]]:
-    """Points along the trims, the directions across them and out of the face, and the face's outward normals."""
+def _edge_points(face: FaceGeometry, index: int, step: float,
+                 ) -> tuple[Array, Array, Array, NDArray[np.intp], NDArray[np.intp]]:
+    """Points along the trims, the directions across them and out of the face, the face's outward normals, its index,
+    and the number of the stretch within the face."""
     surface = face.surface
-    starts, along = [], []
+    starts, along, parts, before = [], [], [], 0
     for polyline in face.trims:
         length = np.linalg.norm(np.diff(surface(polyline), axis=0), axis=1)
         travelled = np.concatenate([[0.0], np.cumsum(length)])
@@ -95,12 +164,14 @@ def _edge_points(face: FaceGeometry, index: int, step: float) -> tuple[Array, Ar
         run = np.diff(polyline, axis=0)[segment]
         starts.append(polyline[segment] + share[:, None] * run)
         along.append(run)
-    uv, direction = np.concatenate(starts), np.concatenate(along)
+        parts.append(before + np.arange(count) // _STRETCH)
+        before = int(parts[-1][-1]) + 1
+    uv, direction, part = np.concatenate(starts), np.concatenate(along), np.concatenate(parts)
     su, sv = surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv)
     tangent = su * direction[:, :1] + sv * direction[:, 1:]
     normal = face.outward * np.cross(su, sv)
     fine = (np.linalg.norm(tangent, axis=1) > 1e-12) & (np.linalg.norm(normal, axis=1) > 1e-12)
-    uv, su, sv, tangent, normal = uv[fine], su[fine], sv[fine], tangent[fine], normal[fine]
+    uv, su, sv, tangent, normal, part = (column[fine] for column in (uv, su, sv, tangent, normal, part))
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     across = np.cross(normal, tangent)
     across /= np.linalg.norm(across, axis=1)[:, None]
@@ -111,4 +182,4 @@ def _edge_points(face: FaceGeometry, index: int, step: float) -> tuple[Array, Ar
     small = 0.02 * step * np.stack([(c * e - b * f) / determinant, (a * f - b * e) / determinant], axis=1)
     inside = inside_trims(face.trims, uv + small)
     across *= np.where(inside, -1.0, 1.0)[:, None]
-    return surface(uv), across, normal, np.full(len(uv), index)
+    return surface(uv), across, normal, np.full(len(uv), index), part

@@ -34,6 +34,7 @@ class Sketch:
     piece : (n,) number of the connected piece, 0 the largest
     noise : standard deviation in mm of the scan about its own local planes
     pool : (m, 3) more points of the same surfaces, not thinned
+    scan : (k, 3) all points
     """
 
     points: Array
@@ -41,6 +42,7 @@ class Sketch:
     piece: NDArray[np.intp]
     noise: float
     pool: Array
+    scan: Array
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
             break
     normals, piece = turn_to_one_side(points, normals)
     even = thin(points, count)
-    return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool)
+    return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool, scan)
 
 
 def thin(points: Array, count: int) -> NDArray[np.intp]:

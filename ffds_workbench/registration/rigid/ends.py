@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a scan ends along the part's rims: what holds it in the directions that its surfaces leave free."""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..splines import Array
+from .motions import apply
+from .rims import Rims
+
+_STRIP = 3.0
+"""Depth of the strip inside a rim that is looked at, in widths: the density is counted beyond the first width."""
+_FEWEST = 6
+"""Points in the counted strip from which a stretch of rim says something."""
+_STRANGE = 0.1
+"""Share of points beside the face, by those on it: from there on the wall at the rim is seen, and holds the scan."""
+_SATURATED = 0.8
+"""A scan that ends farther inside than this share of the width ends for another reason."""
+_FLOOR = 0.1
+"""Uncertainty of a rim that no density takes away, in widths: rounded edges, mixed pixels."""
+
+@dataclass(frozen=True)
+class Ends:
+    """Stretches of rim along which the scan is seen to end.
+
+    Attributes
+    ----------
+    places, outwards : (n, 3) in mm and unit vectors
+    gap : (n,) in mm from the rim to the end of the scan, negative where it ends inside
+    weight : (n,) 1/mm²
+    """
+
+    places: Array
+    outwards: Array
+    gap: Array
+    weight: Array
+
+    def moved(self, motion: Array) -> Ends:
+        """After the scan has moved on a little by (4, 4)."""
+        end = self.places + self.gap[:, None] * self.outwards
+        more = np.einsum("ni,ni->n", apply(motion, end) - end, self.outwards)
+        return replace(self, gap=self.gap + more)
+
+
+def find_ends(rims: Rims, points: Array, width: float, tolerance: float, normals: Array | None = None) -> Ends:
+    """Count the points near the rims: as many as the strip inside lets expect lie on a face that ends at its rim.
+
+    Of a scan of density λ per mm of depth, n = λ (width + gap) points lie within the width of the rim or beyond it,
+    however symmetric noise blurs its end.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates, of even density on each side of a rim
+    width : in mm; ends farther than this from the rim are not recognised
+    tolerance : in mm, height up to which a point is on a face
+    normals : (n, 3) outward, where they are known
+    """
+    if not len(rims.points):
+        return _nothing()
+    depth = _STRIP * width
+    nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth)[1]
+    row = np.flatnonzero(nearest < len(rims.points))
+    entry, row = np.concatenate([nearest[row], rims.partner[nearest[row]]]), np.concatenate([row, row])
+    chosen = rims.clear(depth)[entry]
+    chosen[len(row) // 2:] &= entry[len(row) // 2:] != entry[: len(row) // 2]
+    if normals is not None:
+        # the far side of a sheet is neither on the face nor beside it
+        chosen &= np.einsum("ni,ni->n", normals[row], rims.normals[entry]) > -0.5
+    row, entry = row[chosen], entry[chosen]
+    offset = points[row] - rims.points[entry]
+    beyond = np.einsum("ni,ni->n", offset, rims.outwards[entry])
+    height = np.abs(np.einsum("ni,ni->n", offset, rims.normals[entry]))
+    on, beside = height < tolerance, np.abs(beyond) < width
+    stretch, count = rims.stretch[entry], len(rims.middles)
+    inside, near, strange = (np.bincount(stretch[chosen], minlength=count) for chosen in (
+        on & (beyond < -width) & (beyond > -depth), on & beside, beside & ~on & (height < tolerance + width)))
+    density = inside / (depth - width)
+    gap = near / np.maximum(density, 1e-12) - width
+    seen = (inside >= _FEWEST) & (strange < _STRANGE * density * width) & (np.abs(gap) < _SATURATED * width)
+    spread = 1.5 * width / np.maximum(density, 1e-12) + (_FLOOR * width) ** 2
+    return Ends(rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread[seen])
+
+
+def fewest_width(rims: Rims, density: float) -> float:
+    """Width in mm that holds enough points of a scan, of so many points per mm², to count its ends."""
+    return 2.0 * _FEWEST / (rims.length_of_stretch * max(density, 1e-12) * (_STRIP - 1.0))
+
+
+def _nothing() -> Ends:
+    return Ends(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A pose refined against the side of the part that the scan shows, with what speaks for it."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..splines import Array
+from .fine import refine
+from .motions import angle, apply, shift
+from .polish import is_deformed
+from .sketch import Plane, Sketch
+from .target import Target
+from .verify import Evidence, examine, facing_normals, is_rough
+
+_ON = 0.008
+"""Distance, as a share of the part's size, from which a point may lie on the part with its normal turned round."""
+TURNED = 0.15
+"""Share of the normals that may be turned round one by one."""
+MARGIN = 0.06
+"""Poses whose scores differ by less than this share of what is left unexplained fit alike."""
+SAME_TURN, SAME_SHIFT = 0.07, 0.03
+"""Poses closer than this (rad, share of the part's size) are one."""
+
+
+@dataclass(frozen=True)
+class Verified:
+    """A refined pose with what speaks for it and the outward normals it gives the sketch."""
+
+    pose: Array
+    evidence: Evidence
+    normals: Array
+    reason: str = "found"
+
+
+def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
+    """The pose refined against the side of the part that the scan shows, and what speaks for it."""
+    pose, normals = refined(target, sketch, pose, signs)
+    if not is_rough(target, sketch):
+        patched, turned = mended(target, sketch, pose, normals, max(_ON * target.size, 4.0 * sketch.noise))
+        if 0.0 < turned < TURNED:
+            closer = refine(target.light, sketch.points, pose, (0.04 * target.size,), 8, patched @ pose[:3, :3])
+            patched = patched @ pose[:3, :3] @ closer[:3, :3].T
+            # of a deformed sheet some points lie nearer to the far side
+            if not is_deformed(target, sketch, closer, patched):
+                pose, normals = closer, patched
+    return Verified(pose, examine(target.light, sketch, pose, normals, table), normals)
+
+
+def refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:
+    """The pose after a few steps, and the outward normals of the sketch in the model's frame."""
+    light, gate = target.light, 0.08 * target.size
+    if is_rough(target, sketch):
+        pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
+        return pose, facing_normals(light, apply(pose, sketch.points))
+    piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
+    normals = signs[piece][:, None] * sketch.normals
+    pose = refine(light, sketch.points, pose, (gate,), 12, normals)
+    return pose, normals @ pose[:3, :3].T
+
+
+def mended(target: Target, sketch: Sketch, pose: Array, normals: Array, near: float) -> tuple[Array, float]:
+    """Normals turned round one by one where the point then lies ``near`` (mm) the part, and the share of those."""
+    moved = apply(pose, sketch.points)
+    off = np.flatnonzero(_heights(target.light, moved, normals) > near)
+    turned = np.zeros(len(moved), dtype=bool)
+    turned[off] = _heights(target.light, moved[off], -normals[off]) < near
+    return np.where(turned[:, None], -normals, normals), float(turned.mean())
+
+
+def _heights(target: Target, points: Array, normals: Array) -> Array:
+    """Distances in mm from the faces that face the same way, infinite where there are none nearby; (n,)."""
+    distance, nearest = target.nearest(points, normals, 0.05 * target.size)
+    return np.where(np.isfinite(distance), np.abs(target.heights(points, nearest)[0]), np.inf)
+
+
+def turned_on(found: Verified, pose: Array) -> Array:
+    """The outward normals in the model's frame after the pose has moved on a little."""
+    return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
+
+
+def best_of(verified: Sequence[Verified], mode: str) -> Verified:
+    """The pose that scores best; a fine alignment takes the one that turns least among those that fit alike."""
+    good = alike(verified)
+    if mode != "global":
+        nearest = min(float(angle(v.pose, np.eye(4))) for v in good)
+        good = [v for v in good if angle(v.pose, np.eye(4)) < nearest + SAME_TURN]
+    return max(good, key=lambda v: v.evidence.score)
+
+
+def alike(verified: Sequence[Verified]) -> list[Verified]:
+    """The poses that fit as well as the best one."""
+    best = max(v.evidence.score for v in verified)
+    return [v for v in verified if v.evidence.score >= best - MARGIN * (1.0 - best)]
+
+
+def nearest_of(verified: Sequence[Verified], place: Array) -> Verified:
+    """Of the poses that fit alike, the one that moves ``place`` least: a start by hand says which side is meant."""
+    return min(alike(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))

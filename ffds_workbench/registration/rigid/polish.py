@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The last word on a pose: thousands of points, the scan's ends along the rims, and what a deformed part asks for."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ..splines import Array
+from .ends import Ends, fewest_width, find_ends
+from .fine import gauss_newton, refine, tukey
+from .motions import apply, step
+from .sketch import Sketch, thin
+from .smooth import settle
+from .target import Target
+from .verify import is_rough
+
+_WIDE, _DEFORMED = 0.12, 0.002
+"""Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
+_POINTS, _ON_FACES, _NEAR_RIMS = 2_500, 12_000, 30_000
+"""Points for the pose of a deformed part; of one that is not, for heights and for ends."""
+_CLOSE = 0.02
+"""Gate for a part that is not deformed, as a share of its size."""
+_BLURRED, _APART = 1.5, 3.0
+"""In standard deviations of the noise: the width within which ends are counted, and the height over a second face below
+which nobody can tell which face a point is on."""
+_FIRST_WIDTH = 0.005
+"""Width, as a share of the part's size, for the ends of a scan that is not quite there yet."""
+_CUT = 4.0
+_STEPS = 4
+_CANDIDATES = 4
+
+
+def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float) -> Array:
+    """The pose on thousands of points.
+
+    A part that is not deformed lies on its faces, and ends at its rims. Of a deformed one the pose is wanted that fits
+    all of it best, not where it deformed least: wide gates, and each point against the side that it shows. Where the
+    noise is large the side is a guess, and gross errors reach far: no normals then, and a closer gate.
+
+    Parameters
+    ----------
+    pose : (4, 4), T_model_scan to start from
+    normals : (n, 3) outward normals of the sketch in model coordinates
+    coverage : share of the part that the scan shows
+    """
+    if is_rough(target, sketch):
+        gate = max(0.02 * target.size, 3.0 * sketch.noise)
+        return refine(target, sketch.pool[thin(sketch.pool, _POINTS)], pose, (2.0 * gate, gate), 15)
+    if not is_deformed(target, sketch, pose, normals):
+        return _fit_faces_and_ends(target, sketch, pose, coverage)
+    reach = _WIDE * target.size
+    points = sketch.pool[thin(sketch.pool, _POINTS)]
+    outward = (normals @ pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
+    pose = refine(target, points, pose, (reach,), 8, outward)
+    return settle(target, points, pose, outward, reach)
+
+
+def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:
+    """Whether more than a fifth of the points lie off the part, with normals (n, 3) in the model's frame."""
+    moved = apply(pose, sketch.points)
+    distance, nearest = target.nearest(moved, normals, _WIDE * target.size)
+    height = target.heights(moved, nearest)[0][np.isfinite(distance)]
+    return not len(height) or bool(np.quantile(np.abs(height), 0.8) >= max(_DEFORMED * target.size, 3.0 * sketch.noise))
+
+
+def _fit_faces_and_ends(target: Target, sketch: Sketch, pose: Array, coverage: float) -> Array:
+    """Least-squares pose of points on the faces and of the scan's ends on the rims, in two rounds."""
+    points = sketch.pool[:_ON_FACES]
+    pose = refine(target, points[::3], pose, (_CLOSE * target.size,), 6)
+    density = len(sketch.scan) / (coverage * float(target.samples.area.sum()))
+    narrow = max(_BLURRED * sketch.noise, fewest_width(target.rims, density))
+    for width in (max(_FIRST_WIDTH * target.size, narrow), narrow):
+        ends = _ends(target, sketch, pose, width, len(points))
+        chosen, nearest = _on_one_face(target, apply(pose, points), _APART * sketch.noise)
+        pose = _fit(target, points[chosen], nearest, pose, ends)
+    return pose
+
+
+def _ends(target: Target, sketch: Sketch, pose: Array, width: float, points: int) -> Ends:
+    """The ends of the scan, weighted against one of so many points on faces that stand for all of it."""
+    near = target.rims.near(apply(pose, sketch.scan))
+    some = near[:: 1 + len(near) // _NEAR_RIMS]
+    ends = find_ends(target.rims, apply(pose, sketch.scan[some]), width, 4.0 * sketch.noise)
+    share = points / len(sketch.scan) * len(near) / max(len(some), 1)
+    return replace(ends, weight=ends.weight * sketch.noise**2 * share)
+
+
+def _on_one_face(target: Target, points: Array, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The points that lie near one face alone, and the samples of it: beside an edge a point may be on either.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates
+    margin : in mm, height up to which a point may be on a face
+    """
+    distance, index = target.tree.query(points, k=_CANDIDATES, distance_upper_bound=_CLOSE * target.size)
+    within = np.flatnonzero(np.isfinite(distance[:, 0]))
+    index = np.where(np.isfinite(distance), index, index[:, :1])[within]
+    height = np.abs(np.stack([target.heights(points[within], column)[0] for column in index.T], axis=1))
+    nearest = index[np.arange(len(index)), height.argmin(axis=1)]
+    doubtful = ((target.samples.face[index] != target.samples.face[nearest][:, None]) & (height < margin)).any(axis=1)
+    return within[~doubtful], nearest[~doubtful]
+
+
+def _fit(target: Target, points: Array, nearest: NDArray[np.intp], pose: Array, ends: Ends) -> Array:
+    """Gauss-Newton steps with the matches as they are."""
+    for _ in range(_STEPS):
+        moved = apply(pose, points)
+        height, normal = target.heights(moved, nearest)
+        cutoff = _CUT * max(1.4826 * float(np.median(np.abs(height))), 1e-6 * target.size)
+        update = gauss_newton(np.concatenate([moved, ends.places]) - target.centre,
+                              np.concatenate([normal, ends.outwards]), np.concatenate([height, ends.gap]),
+                              np.concatenate([tukey(height, cutoff), ends.weight]), target.size)
+        motion = step(update, target.centre)
+        pose, ends = motion @ pose, ends.moved(motion)
+    return pose

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is said of a pose: is it good enough, and does another one fit as well?"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..splines import Array
+from .alignment import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
+from .hypothesis import MARGIN, SAME_SHIFT, SAME_TURN, Verified
+from .motions import angle, apply, shift
+from .polish import polish
+from .sketch import Plane, Sketch
+from .symmetry import Symmetry, symmetry_of
+from .target import Target
+from .units import unit_name
+
+_COUNTED = 5_000
+"""Points for the fitness."""
+FAILS = 0.775
+"""Certainty below which a pose is no answer: the ten scans of other parts in the benchmark reach 0.66; those of the
+part itself 0.91 where a quarter is cut off and 5 % of the points are stray, 0.86 where they show an eighth of it."""
+_LEAST_COVERAGE = 0.12
+_REACH = 0.02
+"""Distance within which a point counts as on the part, as a share of the part's size."""
+
+
+def answer_of(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
+            scale: float) -> Alignment:
+    """The verdict: is the best pose good enough, and does another one fit as well?"""
+    evidence = best.evidence
+    symmetry = symmetry_of(target)
+    rivals = _rivals(target, sketch, table, best, verified, symmetry)
+    poses = (CandidatePose(best.pose, evidence.score, "found"),
+             *(CandidatePose(rival.pose, rival.evidence.score, rival.reason) for rival in rivals))
+    moved = apply(best.pose, sketch.pool[:_COUNTED])
+    distance, closest = target.tree.query(moved)
+    reach = max(_REACH * target.size, 2.5 * sketch.noise)
+    near = distance < reach
+    height = target.heights(moved[near], closest[near])[0] if near.any() else np.zeros(1)
+    reason, verdict = "", OK
+    if evidence.certainty < FAILS or evidence.coverage < _LEAST_COVERAGE:
+        verdict, poses = FAILED, poses[:1]
+        reason = (f"only {100 * evidence.explained:.0f} % of the scan lies on the part and only "
+                  f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
+    elif rivals:
+        verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
+    sure = float(np.clip((evidence.certainty - FAILS) / (1.0 - FAILS), 0.0, 1.0))
+    confidence = sure / (len(poses) if verdict == AMBIGUOUS else 1)
+    return Alignment(best.pose, verdict, confidence, poses, reach, float(near.mean()),
+                     float(np.sqrt(np.mean(height**2))), evidence.explained, evidence.coverage, symmetry.text(), scale,
+                     unit_name(scale), table is not None, reason)
+
+
+def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
+            symmetry: Symmetry) -> list[Verified]:
+    """Other poses that fit as well as the best: the part's symmetry, and what else the search found."""
+    turned = []
+    for pose, exact in zip(symmetry.motions, symmetry.exact, strict=True):
+        if exact:
+            turned.append(Verified(pose @ best.pose, best.evidence, best.normals, "symmetry of the part"))
+    margin = MARGIN * (1.0 - best.evidence.score)
+    place = sketch.points.mean(axis=0)
+    rivals: list[Verified] = []
+    found = [v for v in verified if v.evidence.score > best.evidence.score - margin]
+    for other in [*turned, *sorted(found, key=lambda v: -v.evidence.score)]:
+        known = (best, *rivals)
+        if _is_new(other.pose, known, place, target.size) and other.reason == "found":
+            other = replace(other, pose=polish(target, sketch, other.pose, other.normals, other.evidence.coverage))
+        if _is_new(other.pose, known, place, target.size):
+            rivals.append(other)
+    return rivals
+
+
+def _is_new(pose: Array, known: Sequence[Verified], place: Array, size: float) -> bool:
+    return all(angle(pose, other.pose) > SAME_TURN or shift(pose, other.pose, place) > SAME_SHIFT * size
+               for other in known)
+
+
+def no_answer(reason: str) -> Alignment:
+    return Alignment(np.eye(4), FAILED, 0.0, (), 0.0, 0.0, 0.0, 0.0, 0.0, "", 1.0, "mm", False, reason)
