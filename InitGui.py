@@ -3,9 +3,10 @@
 import FreeCADGui as Gui
 
 from ffds_workbench import RESOURCES
-from ffds_workbench.objects import views
+from ffds_workbench.objects import views, waiting
 
 views.dress_with("ffds_workbench.gui.view_providers")
+waiting.wait_with("ffds_workbench.gui.running")
 Gui.addLanguagePath(str(RESOURCES / "translations"))
 Gui.updateLocale()
 Gui.addIconPath(str(RESOURCES / "icons"))

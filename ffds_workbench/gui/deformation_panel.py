@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 
@@ -13,6 +12,7 @@ from ..objects.as_built import settings_of
 from ..objects.job import Job, Settings, make_job
 from ..objects.sources import Source, standing_for
 from . import running
+from .closing import WithDocument
 from .colours import good_limit
 from .deformation_form import DeformationForm
 from .overlay import Overlay
@@ -38,7 +38,7 @@ class DeformationPanel:
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, document: Any, item: Any, whole: bool) -> None:
-        self._document, self._item, self._name = document, item, document.Name
+        self._document, self._item = document, item
         self._source: Any = None
         self._faces: tuple[str, ...] = ()
         self._hint, self._adding = "", False
@@ -55,6 +55,7 @@ class DeformationPanel:
         self.form.changed.connect(self._preview)
         Gui.Selection.addObserver(self)
         self._watching = True
+        self._with_document = WithDocument(document.Name, self._close)
         QtCore.QTimer.singleShot(0, self._preview)
 
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
@@ -106,12 +107,6 @@ class DeformationPanel:
         elif faces:
             self._faces = faces
 
-    def _alive(self) -> bool:
-        """Whether the panel is open on a document that is; it closes itself when the document was closed."""
-        if self._name not in FreeCAD.listDocuments():
-            self._close()
-        return self._watching
-
     def _show_picked(self) -> None:
         self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
 
@@ -121,7 +116,7 @@ class DeformationPanel:
         QtCore.QTimer.singleShot(0, self._selection_changed)
 
     def _selection_changed(self) -> None:
-        if not self._alive() or self.form.busy:
+        if not self._watching or self.form.busy:
             return
         selected = chosen()
         if not (selected.parts or selected.scans or selected.others or selected.refusal):
@@ -149,7 +144,7 @@ class DeformationPanel:
 
     def _preview(self) -> None:
         """Preview what is set now."""
-        if not self._alive() or self.form.busy:
+        if not self._watching or self.form.busy:
             return
         try:
             job = self._job()
@@ -168,14 +163,14 @@ class DeformationPanel:
     def _draw_nothing(self, failure: BaseException) -> None:
         if not isinstance(failure, FfdsError):
             raise failure
-        if not self._alive():
+        if not self._watching:
             return
         self._overlay.show([])
         self._overlay.cover()
         self.form.show_figures(None, self._hint or said(str(failure)))
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
-        if not self._alive():
+        if not self._watching:
             return
         limit = good_limit(np.concatenate([patch.before for patch in patches]))
         self._overlay.cover(*self._covered(job))
@@ -191,7 +186,7 @@ class DeformationPanel:
 
     def accept(self) -> bool:
         """OK: compute in the background, then write the document in one undo step and close."""
-        if not self._alive() or self.form.busy:
+        if not self._watching or self.form.busy:
             return False
         self._read = None
         try:
@@ -244,6 +239,7 @@ class DeformationPanel:
         self._watching = False
         try:
             Gui.Selection.removeObserver(self)
+            self._with_document.release()
             self._runner.stop()
             if self._worker is not None:
                 self._worker.cancel()

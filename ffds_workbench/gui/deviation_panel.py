@@ -16,6 +16,7 @@ from ..objects.as_built import is_as_built
 from ..objects.scans import scan_points
 from ..registration.raster import make_raster
 from . import running
+from .closing import WithDocument
 from .colours import good_limit, packed_colours
 from .face_on_scan import corner_values, corners, surface_grid
 from .legend import Legend
@@ -78,6 +79,7 @@ class DeviationPanel:
         self._view = Gui.getDocument(self._document).ActiveView
         self._overlay = Overlay(self._document)
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
+        self._with_document = WithDocument(self._document, self._close)
         self.form.destroyed.connect(self._let_go)
         self._show()
 
@@ -117,18 +119,24 @@ class DeviationPanel:
         index = foremost(self._view, tuple(event["Position"]), self._points)
         if index is not None:
             x, y, z = self._points[index]
-            self._cursor.setText(f"<b>{self._values[index]:+.3f} mm</b> at {x:.1f}, {y:.1f}, {z:.1f}")
+            self._cursor.setText(tr("<b>{value} mm</b> at {place}").format(
+                value=f"{self._values[index]:+.3f}", place=f"{x:.1f}, {y:.1f}, {z:.1f}"))
 
     def reject(self) -> bool:
         """Close: everything drawn goes away."""
         self._let_go()
         return True
 
+    def _close(self) -> None:
+        self._let_go()
+        Gui.Control.closeDialog()
+
     def _let_go(self, *_: Any) -> None:
         """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
         if self._callback is None:
             return
         callback, self._callback = self._callback, None
+        self._with_document.release()
         if self._document in FreeCAD.listDocuments():  # a view that was closed crashes when it is asked
             self._view.removeEventCallback("SoLocation2Event", callback)
         self._overlay.remove()

@@ -11,6 +11,7 @@ from pivy import coin
 from ..errors import FfdsError, InputError
 from ..objects.manual_alignment import prepare
 from . import running
+from .closing import WithDocument
 from .overlay import Overlay, points_node
 from .panel import ProgressBar, named, wrapped
 from .qt import QtCore, QtWidgets, number_of
@@ -58,6 +59,7 @@ class PointPairsPanel:
         Gui.Selection.clearSelection()
         Gui.Selection.addObserver(self)
         self._watching = True
+        self._with_document = WithDocument(scan.Document.Name, self._close)
         self._show()
 
     def addSelection(self, document: str, name: str, element: str, place: Point) -> None:  # noqa: N802
@@ -85,7 +87,7 @@ class PointPairsPanel:
         self._show()
 
     def _is_gone(self) -> bool:
-        """Whether the part or the scan was deleted, or their document closed, while the panel was open."""
+        """Whether the part or the scan was deleted while the panel was open."""
         try:
             return not (self._scan.Name and self._part.Name)
         except ReferenceError:
@@ -170,6 +172,7 @@ class PointPairsPanel:
         self._watching = False
         try:
             Gui.Selection.removeObserver(self)
+            self._with_document.release()
             if self._worker is not None:
                 self._worker.cancel()
         finally:

@@ -10,17 +10,22 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from ..errors import FfdsError
+from ..errors import FfdsError, RefusedError
 from .panel import ProgressBar
 from .qt import QtCore, QtWidgets, execute
 from .translating import said, tr
 
 ACTIONS = "ffds_workbench.objects.actions"
 _POLL_MS = 15
+_PATIENCE = 0.3
+"""Seconds."""
 
 
-class Cancelled(Exception):
+class Cancelled(RefusedError):
     """The user does not want the result any more."""
+
+    def __init__(self) -> None:
+        super().__init__(tr("It was cancelled: recompute to take it up again."))
 
 
 @contextmanager
@@ -28,10 +33,10 @@ def telling() -> Iterator[None]:
     """What is refused within goes to the user as a sentence; a cancellation ends quietly."""
     try:
         yield
-    except FfdsError as refusal:
-        tell(said(str(refusal)))
     except Cancelled:
         return
+    except FfdsError as refusal:
+        tell(said(str(refusal)))
 
 
 def tell(sentence: str) -> None:
@@ -88,7 +93,13 @@ class Worker(QtCore.QObject):
         self._timer = QtCore.QTimer(self)
         self._timer.timeout.connect(self._report)
         self._timer.start(_POLL_MS)
-        threading.Thread(target=self._run, daemon=True).start()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def wait(self, seconds: float) -> None:
+        """Let the work go on for so long, or until it has ended, and report."""
+        self._thread.join(seconds)
+        self._report()
 
     def cancel(self) -> None:
         """Drop the result; nothing more is reported."""
@@ -117,6 +128,8 @@ class Worker(QtCore.QObject):
 def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> Any:
     """The value of ``work(progress)``, while FreeCAD stays alive behind a dialog with a Cancel button.
 
+    What is done within `_PATIENCE` shows no dialog; nothing else happens in FreeCAD before there is one.
+
     Raises
     ------
     Cancelled : the user pressed Cancel
@@ -129,7 +142,7 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
     dialog.setWindowTitle("FFDS")
     dialog.setWindowModality(QtCore.Qt.ApplicationModal)
     dialog.setRange(bar.minimum(), bar.maximum())
-    dialog.setMinimumDuration(300)
+    dialog.setMinimumDuration(0)
     dialog.setAutoReset(False)
     loop = QtCore.QEventLoop()
     outcome: dict[str, Any] = {}
@@ -144,9 +157,12 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
 
     worker = Worker(work, lambda value: ended("value", value), lambda failure: ended("failure", failure), told)
     dialog.canceled.connect(lambda: ended("failure", Cancelled()))
-    dialog.setValue(0)
     try:
-        execute(loop)
+        worker.wait(_PATIENCE)
+        if not outcome:
+            dialog.setValue(0)
+            dialog.show()
+            execute(loop)
     finally:
         worker.cancel()
         dialog.close()
@@ -154,3 +170,8 @@ def in_background(title: str, work: Callable[[Callable[[str], None]], Any]) -> A
     if "value" in outcome:
         return outcome["value"]
     raise outcome["failure"]
+
+
+def computing(label: str, work: Callable[[Callable[[str], None]], Any]) -> Any:
+    """What an object that is named so asks for while it is recomputed: `in_background`, with its name."""
+    return in_background(tr("Computing {part}").format(part=label), work)

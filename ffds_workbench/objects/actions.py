@@ -14,13 +14,14 @@ from .. import RESOURCES, api
 from ..brep import files
 from ..errors import InputError
 from ..output import check_writable, replacing
-from . import alignment, scans, views
+from . import alignment, scans, simulation, views
 from .as_built import AsBuilt, apply_settings, is_as_built, settings_of
 from .job import Job, Settings, make_job
 from .manual_alignment import align_by_points
 from .repointing import repoint
 from .seams import add_trajectories, export_program, make_seams
-from .sources import read_source, standing_for
+from .sources import standing_for
+from .waiting import wait_for
 
 __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
            "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "replace_scan",
@@ -74,7 +75,7 @@ def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **
     """
     wanted = _settings(faces, settings)
     job = make_job(source, scan, wanted)
-    job.run()
+    wait_for(job.source.item.Label, job.run)
     source = job.source.item
     item = source.Document.addObject("Part::FeaturePython", "AsBuilt")
     AsBuilt(item)
@@ -95,7 +96,7 @@ def change_as_built(item: Any, faces: Sequence[str] | None = None, scan: Any = N
     if not is_as_built(item):
         raise InputError(f"{item.Label} is no as-built part of this workbench.")
     wanted = _settings(faces, settings)
-    make_job(item.Source, scan or item.Scan, wanted).run()
+    wait_for(item.Label, make_job(item.Source, scan or item.Scan, wanted).run)
     item.Scan = scan or item.Scan
     apply_settings(item, wanted)
     item.recompute()
@@ -108,7 +109,7 @@ def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None,
         raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple "
                          f"copy of it, or an as-built part beside it.")
     job = make_job(source, scan, _settings(faces, settings))
-    shape = job.run().shape.copy()
+    shape = wait_for(source.Label, job.run).shape.copy()
     shape.Placement = job.source.placement
     source.Shape = shape
     return source
@@ -118,13 +119,9 @@ def simulate_scan(source: Any, spacing: float = 0.5, noise: float = 0.05,
                   views: Sequence[tuple[float, float, float]] = (), outliers: float = 0.0, seed: int = 0) -> Any:
     """Scan a part with the virtual sensor: a Points object. ``views`` are directions from the part to the camera; none:
     the whole surface is seen. Lengths in mm."""
-    settings = api.SensorSettings(spacing=spacing, noise=noise, outliers=outliers, seed=seed,
-                                  views=tuple(api.View(tuple(view)) for view in views))
-    found = read_source(source)
-    points = api.simulate(found.model, settings).scan.points
-    matrix = found.T_document_part
-    label = f"{found.item.Label} scanned"
-    return scans.add_scan(source.Document, points @ matrix[:3, :3].T + matrix[:3, 3], label)
+    source = standing_for(source)
+    points = wait_for(source.Label, simulation.prepare(source, spacing, noise, views, outliers, seed))
+    return scans.add_scan(source.Document, points, f"{source.Label} scanned")
 
 
 def load_example(document: Any) -> tuple[Any, Any]:

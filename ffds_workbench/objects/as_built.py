@@ -16,6 +16,7 @@ from .feature import HIDDEN, READ_ONLY, Feature, Property
 from .job import Job, Settings, make_job
 from .lattices import Lattice, draw_lattices
 from .signatures import found_again, signatures
+from .waiting import wait_for
 
 _FIGURES = (("MeanBefore", "deviation_before", "mean"), ("P95Before", "deviation_before", "p95"),
             ("MeanAfter", "deviation_after", "mean"), ("P95After", "deviation_after", "p95"))
@@ -70,7 +71,7 @@ class AsBuilt(Feature):
             missing = "nominal part" if obj.Source is None else "scan"
             raise InputError(f"{obj.Label} has lost its {missing}: choose one in its properties.")
         job = _with_faces_found_again(obj, make_job(obj.Source, obj.Scan, settings_of(obj)))
-        result = job.run()
+        result = wait_for(obj.Label, job.run)
         obj.Shape = result.shape
         obj.Placement = job.source.placement
         for name, block, figure in _FIGURES:

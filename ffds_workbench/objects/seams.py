@@ -25,6 +25,7 @@ from . import views
 from .as_built import is_as_built
 from .feature import HIDDEN, READ_ONLY, Feature, Property
 from .seam_job import SeamJob, SeamWishes, make_seam_job
+from .waiting import wait_for
 
 Array = NDArray[np.float64]
 
@@ -79,7 +80,7 @@ class Seams(Feature):
 
     def execute(self, obj: Any) -> None:
         """Recompute. What goes wrong makes the object invalid, with the sentence; its last seams stay."""
-        plan = job_of(obj).run()
+        plan = wait_for(obj.Label, job_of(obj).run)
         record = plan.record()
         obj.Shape = Part.makeCompound([_line(seam.stations.positions) for seam in plan.seams])
         obj.Verdicts = [": ".join(filter(None, (item["name"], item["verdict"], ", ".join(item["exceeded"]))))
@@ -110,7 +111,7 @@ def make_seams(part: Any, edges: Sequence[str] = (), tolerance: float | None = N
     InputError, RefusedError : as `api.plan_seams` does; the document is left as it was
     """
     wishes = SeamWishes(tuple(edges), tolerance, chain, settings or _PLAIN, limits or _PASSES)
-    prepare(part, wishes, nominal).run()
+    wait_for(part.Label, prepare(part, wishes, nominal).run)
     item = part.Document.addObject("Part::FeaturePython", "Seams")
     Seams(item)
     item.Label = f"{part.Label} seams"
@@ -198,7 +199,7 @@ def robot_of(item: Any) -> api.RobotSettings:
 def _plan(item: Any) -> SeamPlan:
     if not is_seams(item):
         raise InputError(f"{item.Label} holds no seams: find the seams of a part first.")
-    return job_of(item).run()
+    return wait_for(item.Label, job_of(item).run)
 
 
 def _nominal_of(part: Any, nominal: Any) -> Any:

@@ -188,6 +188,10 @@
       <translation>„{name}“ ist keine Fläche, die man festhalten kann: Schreiben Sie Namen wie Face1, Face4.</translation>
     </message>
     <message>
+      <source>&lt;b&gt;{value} mm&lt;/b&gt; at {place}</source>
+      <translation>&lt;b&gt;{value} mm&lt;/b&gt; bei {place}</translation>
+    </message>
+    <message>
       <source>ABB program (*.mod)</source>
       <translation>ABB-Programm (*.mod)</translation>
     </message>
@@ -374,6 +378,10 @@
     <message>
       <source>Inextensible sheet</source>
       <translation>Dehnungsfreies Blech</translation>
+    </message>
+    <message>
+      <source>It was cancelled: recompute to take it up again.</source>
+      <translation>Es wurde abgebrochen: Berechnen Sie neu, um es wieder aufzunehmen.</translation>
     </message>
     <message>
       <source>KUKA program (*.src)</source>
@@ -608,6 +616,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan does not lie on {name}: check its unit and its alignment, or choose another face.</source>
       <translation>Der Scan liegt nicht auf {name}: Prüfen Sie Einheit und Ausrichtung, oder wählen Sie eine andere Fläche.</translation>
+    </message>
+    <message>
+      <source>The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the scan, or undo and align it by three points.</source>
+      <translation>Der Scan passt in {count} Lagen gleich gut auf das Teil, und nichts verrät, welche richtig ist. Sehen Sie sich den Scan an, oder machen Sie es rückgängig und richten Sie ihn mit drei Punkten aus.</translation>
     </message>
     <message>
       <source>The scan; picking a point cloud in the view or the tree chooses it as well</source>
@@ -1250,6 +1262,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Alle Flächen werden zusammen angepasst: {0}</translation>
     </message>
     <message>
+      <source>Scanning the part</source>
+      <translation>Das Teil wird gescannt</translation>
+    </message>
+    <message>
       <source>Shell {0} is no longer closed.</source>
       <translation>Hülle {0} ist nicht mehr geschlossen.</translation>
     </message>
@@ -1814,10 +1830,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Flächen</translation>
     </message>
     <message>
-      <source>fewer than {0} points of the scan belong together</source>
-      <translation>weniger als {0} Punkte des Scans gehören zusammen</translation>
-    </message>
-    <message>
       <source>is open</source>
       <translation>ist offen</translation>
     </message>
@@ -1848,10 +1860,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>the scan fits in several poses alike</source>
       <translation>der Scan passt in mehreren Lagen gleich gut</translation>
-    </message>
-    <message>
-      <source>the scan measures {0} mm and the part {1} mm, which no usual unit explains</source>
-      <translation>der Scan misst {0} mm und das Teil {1} mm, was keine übliche Einheit erklärt</translation>
     </message>
     <message>
       <source>vertices</source>

@@ -20,6 +20,9 @@ SHOTS = os.environ.get("FFDS_SCREENSHOTS")
 class Hands:
     """Mouse, keyboard and eyes."""
 
+    def __init__(self) -> None:
+        self._known = ""
+
     def wait(self, milliseconds: int = 100) -> None:
         """Let FreeCAD go on."""
         loop = QtCore.QEventLoop()
@@ -134,13 +137,13 @@ class Hands:
         QtTest.QTest.mouseClick(viewport, QtCore.Qt.LeftButton, modifier, place, 10)
         self.wait(400)
 
-    def answer(self, press: Callable[[QtWidgets.QWidget], None]) -> list[str]:
-        """Answer the next modal dialog; returns a list that will hold its text."""
+    def answer(self, press: Callable[[QtWidgets.QWidget], None], kind: type = QtWidgets.QWidget) -> list[str]:
+        """Answer the next modal dialog, of that kind; returns a list that will hold its text."""
         said: list[str] = []
 
         def look() -> None:
             dialog = QtWidgets.QApplication.activeModalWidget()
-            if dialog is None:
+            if not isinstance(dialog, kind):
                 QtCore.QTimer.singleShot(100, look)
                 return
             said.append(dialog.text() if hasattr(dialog, "text") else dialog.windowTitle())
@@ -154,6 +157,11 @@ class Hands:
         self.wait(250)
         views = Gui.getMainWindow().findChildren(QtWidgets.QTextEdit, "Report view")
         return "\n".join(view.toPlainText() for view in views)
+
+    def news(self) -> str:
+        """What the Report view has said since it was asked last."""
+        before, self._known = self._known, self.report()
+        return self._known[len(before):]
 
     def screenshot(self, name: str) -> None:
         """A picture of the whole screen into the folder $FFDS_SCREENSHOTS, if there is one."""
@@ -184,7 +192,7 @@ def hands(monkeypatch):
     used = Hands()
     Gui.getMainWindow().showMaximized()
     Gui.activateWorkbench("FFDSWorkbench")
-    before = used.report()
+    used.news()
     used.until(_task_dock, 5)
     _task_dock().show()
     yield used
@@ -193,7 +201,7 @@ def hands(monkeypatch):
         used.wait()
     for name in list(FreeCAD.listDocuments()):
         FreeCAD.closeDocument(name)
-    new = used.report()[len(before):]
+    new = used.news()
     assert not [line for line in new.splitlines() if "rror" in line or "Traceback" in line or "xception" in line], new
 
 

@@ -11,11 +11,13 @@ import sys
 
 import FreeCAD
 import FreeCADGui as Gui
+import numpy as np
 import Part
 import pytest
 from PySide2 import QtCore, QtTest, QtWidgets
 
 from ffds_workbench.gui.commands import COMMANDS
+from ffds_workbench.gui.commands.align_by_points import AlignByPoints
 from ffds_workbench.gui.commands.align_scan import AlignScan
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
@@ -126,6 +128,26 @@ def test_cancel_in_mid_work_leaves_nothing(hands, plate_document):
     assert hands.nodes() == nodes and names(plate_document) == before and not plate_document.UndoNames
 
 
+def test_a_recompute_shows_its_progress_and_can_be_cancelled(hands, plate_document):
+    item = deform(hands, plate_document)
+    shape, ticks = item.Shape.hashCode(), []
+    timer = QtCore.QTimer()
+    timer.timeout.connect(lambda: ticks.append(QtWidgets.QApplication.activeModalWidget() is not None))
+    timer.start(20)
+
+    def cancel(dialog) -> None:
+        hands.screenshot("recompute")
+        hands.click(dialog.findChild(QtWidgets.QPushButton))
+
+    item.Faces = []  # the whole part takes seconds
+    dialogs = hands.answer(cancel, QtWidgets.QProgressDialog)
+    plate_document.recompute()
+    assert dialogs and any(ticks) and not item.isValid() and item.Shape.hashCode() == shape
+    assert "cancelled" in item.getStatusString() and "cancelled" in hands.news()  # FreeCAD writes it as an error
+    plate_document.recompute()
+    assert item.isValid() and item.Shape.hashCode() != shape
+
+
 def test_a_double_click_changes_the_settings(hands, plate_document):
     item = deform(hands, plate_document)
     item.ViewObject.Proxy.doubleClicked(item.ViewObject)
@@ -181,23 +203,25 @@ def test_the_deviation_map_comes_and_goes(hands, plate_document):
     assert hands.nodes() == nodes and names(plate_document) == before
 
 
-@pytest.mark.parametrize("command", [DeformFaces, ShowDeviation])
-def test_a_panel_whose_document_is_closed_lets_go(hands, plate_document, command):
+@pytest.mark.parametrize(("command", "shown"), [(DeformFaces, "FfdsFigures"), (ShowDeviation, "FfdsFigures"),
+                                                (AlignByPoints, "FfdsHint")])
+def test_a_panel_closes_with_its_document_and_no_other(hands, plate_document, command, shown):
+    FreeCAD.newDocument("Other")
+    FreeCAD.setActiveDocument(plate_document.Name)
     Gui.Selection.addSelection(plate_document.Plate, "Face6")
     hands.command(command)
-    hands.until(lambda: hands.says("FfdsFigures"), 30)
+    hands.until(lambda: hands.says(shown), 30)
+    FreeCAD.closeDocument("Other")
+    hands.wait(300)
+    assert Gui.Control.activeDialog()
     FreeCAD.closeDocument(plate_document.Name)
-    hands.wait(300)
-    if Gui.Control.activeDialog():
-        Gui.Control.closeDialog()
-    hands.wait(300)
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)
     FreeCAD.newDocument("Next")
     Gui.Selection.clearSelection()
     hands.wait(200)
 
 
 def test_a_scan_in_metres_is_asked_about(hands, plate_document, tmp_path, monkeypatch):
-    import numpy as np
 
     np.savetxt(tmp_path / "metres.xyz", np.random.default_rng(0).uniform(0, 0.06, (500, 3)))
     monkeypatch.setattr(QtWidgets.QFileDialog, "getOpenFileNames",
@@ -267,6 +291,21 @@ def test_a_scan_is_aligned_in_one_undo_step(hands):
     assert abs(scan_points(scan) - lay).mean() < 1.0
     document.undo()
     assert abs(scan_points(scan) - away).max() < 1e-3
+
+
+def test_a_plate_seen_from_above_is_aligned_and_what_is_not_told_is_said(hands, plate_document):
+    """A plain plate looks the same after half a turn, and from above nothing tells its upper side from its lower."""
+    scan = plate_document.Scan
+    scan.Placement = FreeCAD.Placement(FreeCAD.Vector(40, -60, 30), FreeCAD.Rotation(FreeCAD.Vector(1, 2, 3), 70))
+    plate_document.clearUndos()
+    Gui.Selection.addSelection(plate_document.Plate)
+    said = hands.answer(lambda dialog: (hands.screenshot("align_plate"), dialog.accept()), QtWidgets.QMessageBox)
+    hands.command(AlignScan)
+    hands.until(lambda: said, 90)
+    assert "poses alike" in said[0] and plate_document.UndoNames == ["Align scan"]
+    # The bump leaves the pose within the plane about half its height.
+    points = scan_points(scan)
+    assert np.abs(points.min(axis=0)[:2]).max() < 0.5 and np.abs(points.max(axis=0)[:2] - [60, 40]).max() < 0.5
 
 
 @pytest.mark.skipif(not os.environ.get("FFDS_SCREENSHOTS"),

@@ -17,11 +17,11 @@ def _report_view() -> str:
 
 
 def test_the_workbench_opens_without_a_warning():
+    Gui.activateWorkbench("NoneWorkbench")
     before = _report_view()
     Gui.activateWorkbench("FFDSWorkbench")
     assert Gui.activeWorkbench().name() == "FFDSWorkbench"
     new = _report_view()[len(before):]
-    assert "FFDS" not in before
     assert not [line for line in new.splitlines() if "arning" in line or "rror" in line or "Traceback" in line]
 
 

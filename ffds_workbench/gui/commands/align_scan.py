@@ -6,6 +6,9 @@ from ..running import call, in_background, name_of, tell
 from ..translating import said, tr
 from .command import Command, part_and_scan
 
+_SURE = 0.5
+"""Confidence below which the user is asked to look."""
+
 
 class AlignScan(Command):
     """Moves the scan as a rigid body, from anywhere."""
@@ -24,10 +27,15 @@ class AlignScan(Command):
     def run(self) -> None:
         """Find the pose in the background, then move the scan in one undo step."""
         from ...objects import alignment
+        from ...registration.rigid.alignment import AMBIGUOUS
 
         part, scan = part_and_scan()
         found = in_background(tr("Aligning the scan"), alignment.prepare(part, scan, "global"))
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
-        if found.alignment.poses and found.alignment.confidence < 0.5:
+        pose = found.alignment
+        if pose.verdict == AMBIGUOUS:
+            tell(tr("The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the "
+                    "scan, or undo and align it by three points.").format(count=len(pose.poses)))
+        elif pose.confidence < _SURE:
             tell(tr("The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points."
-                    ).format(reason=said(found.alignment.text)))
+                    ).format(reason=said(pose.text)))
