@@ -66,17 +66,29 @@ class FaceOnScan:
 
     def deformed(self, displacement: SplineSurface) -> Array:
         """The corners of the raster's cells on the deformed face, (n, 3) in mm."""
-        u, v = corners(self.raster)
-        return (self.geometry.surface.on_grid(u, v) + displacement.on_grid(u, v)).reshape(-1, 3)
+        return (self._nominal + displacement.on_grid(*corners(self.raster))).reshape(-1, 3)
+
+    @cached_property
+    def _nominal(self) -> Array:
+        """The same corners on the nominal face."""
+        return self.geometry.surface.on_grid(*corners(self.raster))
 
     def outline(self, displacement: SplineSurface) -> list[Array]:
         """The trims on the deformed face, closed polylines, each (k, 3) in mm."""
-        return [self.geometry.surface(uv) + displacement(uv) for uv in self._trims]
+        if not self._trims:
+            return []
+        uv, nominal, ends = self._trims
+        return np.split(nominal + displacement(uv), ends)
 
     @cached_property
-    def _trims(self) -> list[Array]:
-        """The trims, no finer than they need to be for a drawing."""
-        return [uv[np.linspace(0, len(uv) - 1, min(len(uv), _OUTLINE)).astype(int)] for uv in self.geometry.trims]
+    def _trims(self) -> tuple[Array, Array, Index] | tuple[()]:
+        """The trims in (u, v) and on the nominal face, one after the other and no finer than they need to be for a
+        drawing, and where they end."""
+        drawn = [uv[np.linspace(0, len(uv) - 1, min(len(uv), _OUTLINE)).astype(int)] for uv in self.geometry.trims]
+        if not drawn:
+            return ()
+        uv = np.concatenate(drawn)
+        return uv, self.geometry.surface(uv), np.cumsum([len(trim) for trim in drawn])[:-1]
 
     def at_corners(self, deviations: Deviations) -> Array:
         """Mean deviation after at each of them, NaN without data, (n,)."""

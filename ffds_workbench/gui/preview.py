@@ -77,10 +77,13 @@ class Preview:
         self._part = workpiece.read(shape)
         self._points = points
         self._faces: dict[str, FaceOnScan] = {}
+        self._sizes: dict[str, tuple[int, int]] = {}
         self._whole: WholePreview | None = None
 
     def patches(self, settings: Settings, coarse: bool, progress: Progress) -> list[Patch]:
         """Register what the settings name: on all points, or coarsely and fast. Any thread may call it, one at a time.
+
+        Coarsely, an automatic lattice stays as it was first found.
 
         Raises
         ------
@@ -112,7 +115,11 @@ class Preview:
             raise RefusedError(tr("The scan does not lie on {name}: check its unit and its alignment, or choose "
                                   "another face.").format(name=name))
         every = max(1, -(-len(index) // COARSE)) if coarse else 1
+        if coarse and settings.lattice == "auto" and name in self._sizes:
+            settings = replace(settings, lattice=self._sizes[name])
         found = _register(face.geometry, self._points[index[::every]], settings, coarse)
+        if coarse and settings.lattice == "auto":
+            self._sizes[name] = _size(found.displacement)
         return _patch(face, face.deviations(found.displacement, every).near(), found.displacement, found.coverage, True)
 
 

@@ -26,7 +26,7 @@ LANGUAGES = ("de",)
 Text = tuple[str, str]
 """Context and text."""
 LAYERS = ("registration", "scan", "brep", "seams", "report", "api", "objects")
-SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress": 0, "_no_answer": 0}
+SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress": 0, "report": 0, "_no_answer": 0}
 """Calls that say something, and which argument it is."""
 PHRASES = {"sentences", "reason", "lost", "where", "missing", "was", "renamed", "phrases", "notes", "left_out"}
 """Variables that hold sentences, or a part of one."""

@@ -1830,12 +1830,20 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Flächen</translation>
     </message>
     <message>
+      <source>finer lattice</source>
+      <translation>feineres Gitter</translation>
+    </message>
+    <message>
       <source>is open</source>
       <translation>ist offen</translation>
     </message>
     <message>
       <source>is where a closed face meets itself</source>
       <translation>ist dort, wo eine geschlossene Fläche auf sich selbst trifft,</translation>
+    </message>
+    <message>
+      <source>joint solve</source>
+      <translation>gemeinsame Lösung</translation>
     </message>
     <message>
       <source>nominal part</source>
