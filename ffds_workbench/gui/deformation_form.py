@@ -19,12 +19,11 @@ _LARGEST_GATE = 1000.0
 
 
 def _methods() -> list[tuple[str, str]]:
-    return [(tr("Robust: noise, gaps and clutter"), "robust"), (tr("FFDS as published"), "ffds"),
-            (tr("FFD by Hsu: a lattice in space"), "ffd-hsu")]
+    return [(tr("Robust"), "robust"), (tr("Published FFDS"), "ffds"), (tr("FFD by Hsu"), "ffd-hsu")]
 
 
 def _isometries() -> list[tuple[str, str]]:
-    return [(tr("Decide from the scan"), "auto"), (tr("Inextensible sheet"), "on"), (tr("May stretch"), "off")]
+    return [(tr("From the scan"), "auto"), (tr("Inextensible"), "on"), (tr("May stretch"), "off")]
 
 
 class DeformationForm(QtWidgets.QWidget):
@@ -60,18 +59,20 @@ class DeformationForm(QtWidgets.QWidget):
                                "distance that suits most scans"))
         self._gate.setSpecialValueText(tr("automatic"))
         self._gate.setSingleStep(0.1)
-        self._method = choice("FfdsMethod", _methods(), tr("How the control points are found"))
+        self._method = choice("FfdsMethod", _methods(), tr(
+            "Robust copes with noise, gaps and clutter; FFDS as it was published; FFD by Hsu, with a lattice in space"))
         self._source_points = spin("FfdsSourcePoints", 400, 16, 1000000,
                                    tr("For the published methods, on each face"))
-        self._isometry = choice("FfdsIsometry", _isometries(), tr("For whole sheet parts"))
+        self._isometry = choice("FfdsIsometry", _isometries(), tr("For whole sheet parts: whether they may stretch"))
         self._freeze = named(QtWidgets.QLineEdit(), "FfdsFreeze",
                              tr("Faces that must not move, for instance Face1, Face4"))
         self._pick_frozen = named(QtWidgets.QToolButton(), "FfdsPickFrozen",
                                   tr("While this is pressed, picked faces are frozen, or set free again"))
         self._pick_frozen.setText(tr("Pick"))
         self._pick_frozen.setCheckable(True)
-        self._result = choice("FfdsResult", [(tr("An as-built part beside it"), False), (tr("Replace in place"), True)],
-                              tr("Replacing is for plain shapes without a history"))
+        self._result = choice("FfdsResult", [(tr("Part beside it"), False), (tr("Replace in place"), True)],
+                              tr("An as-built part beside the nominal one follows it and the scan; replacing is for "
+                                 "plain shapes without a history"))
         self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
         self._message.setStyleSheet("color: #b3401f")
         self._legend = named(Legend(), "FfdsLegend", tr("Deviation of the scan from the deformed faces"))
@@ -241,11 +242,12 @@ class DeformationForm(QtWidgets.QWidget):
         self.say(sentence)
         if figures is None:
             return
-        rows = "".join(f"<tr><td>{name}</td><td align='right'>&nbsp; {mean:.3f}&nbsp;mm</td>"
-                       f"<td align='right'>&nbsp; {p95:.3f}&nbsp;mm</td></tr>"
+        rows = "".join(f"<tr><td>{name}</td><td align='right'>{mean:.3f}</td>"
+                       f"<td align='right'>{p95:.3f}</td></tr>"
                        for name, mean, p95 in ((tr("before"), *figures[:2]), (tr("after"), *figures[2:4])))
         self._figures.setText(
-            f"<table><tr><td>{tr('Deviation')}</td><td align='right'>{tr('mean')}</td><td align='right'>95 %</td></tr>"
+            f"<table width='100%'><tr><td>{tr('Deviation')},&nbsp;mm</td><td align='right'>{tr('mean')}</td>"
+            f"<td align='right'>95&nbsp;%</td></tr>"
             f"{rows}</table>" + tr("Coverage {share} %").format(share=f"{100 * figures[4]:.0f}"))
         self._legend.show_deviations(after, limit)
 

@@ -157,4 +157,4 @@ def _figures_text(block: dict[str, float], values: Array, tolerance: float) -> s
     if tolerance > 0:
         share = f"{100 * np.mean(np.abs(values) <= tolerance):.1f}"
         text += "; " + tr("{share} % within the tolerance").format(share=share)
-    return text
+    return text.replace(" mm", "\u00a0mm").replace(" %", "\u00a0%")

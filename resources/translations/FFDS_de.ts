@@ -232,8 +232,8 @@
       <translation>Alle Punkte sind gewählt: Drücken Sie OK.</translation>
     </message>
     <message>
-      <source>An as-built part beside it</source>
-      <translation>Ein Ist-Teil daneben</translation>
+      <source>An as-built part beside the nominal one follows it and the scan; replacing is for plain shapes without a history</source>
+      <translation>Ein Ist-Teil neben dem Nennteil folgt diesem und dem Scan; Ersetzen ist für einfache Formen ohne Historie</translation>
     </message>
     <message>
       <source>Another task is open: finish or close it first.</source>
@@ -284,10 +284,6 @@
       <translation>Abdeckung {share} %</translation>
     </message>
     <message>
-      <source>Decide from the scan</source>
-      <translation>Aus dem Scan entscheiden</translation>
-    </message>
-    <message>
       <source>Deform</source>
       <translation>Verformen</translation>
     </message>
@@ -316,12 +312,8 @@
       <translation>Roboterprogramm exportieren</translation>
     </message>
     <message>
-      <source>FFD by Hsu: a lattice in space</source>
-      <translation>FFD nach Hsu: ein Gitter im Raum</translation>
-    </message>
-    <message>
-      <source>FFDS as published</source>
-      <translation>FFDS wie veröffentlicht</translation>
+      <source>FFD by Hsu</source>
+      <translation>FFD nach Hsu</translation>
     </message>
     <message>
       <source>Faces of two parts are selected: choose those of one.</source>
@@ -348,8 +340,8 @@
       <translation>Für die veröffentlichten Verfahren, auf jeder Fläche</translation>
     </message>
     <message>
-      <source>For whole sheet parts</source>
-      <translation>Für ganze Blechteile</translation>
+      <source>For whole sheet parts: whether they may stretch</source>
+      <translation>Für ganze Blechteile: ob sie sich dehnen dürfen</translation>
     </message>
     <message>
       <source>FreeCAD document with trajectories (*.FCStd)</source>
@@ -360,12 +352,12 @@
       <translation>Festhalten</translation>
     </message>
     <message>
-      <source>Go on by closest points; without it the three pairs alone decide</source>
-      <translation>Mit nächsten Punkten weitermachen; sonst entscheiden allein die drei Paare</translation>
+      <source>From the scan</source>
+      <translation>Nach dem Scan</translation>
     </message>
     <message>
-      <source>How the control points are found</source>
-      <translation>Wie die Kontrollpunkte gefunden werden</translation>
+      <source>Go on by closest points; without it the three pairs alone decide</source>
+      <translation>Mit nächsten Punkten weitermachen; sonst entscheiden allein die drei Paare</translation>
     </message>
     <message>
       <source>Import scan</source>
@@ -376,8 +368,8 @@
       <translation>In welcher Einheit ist der Scan?</translation>
     </message>
     <message>
-      <source>Inextensible sheet</source>
-      <translation>Dehnungsfreies Blech</translation>
+      <source>Inextensible</source>
+      <translation>Dehnungsfrei</translation>
     </message>
     <message>
       <source>It was cancelled: recompute to take it up again.</source>
@@ -442,6 +434,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Teil</translation>
     </message>
     <message>
+      <source>Part beside it</source>
+      <translation>Teil daneben</translation>
+    </message>
+    <message>
       <source>Pick</source>
       <translation>Wählen</translation>
     </message>
@@ -482,6 +478,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Zeigen Sie auf das Teil, um die Abweichung dort zu lesen.</translation>
     </message>
     <message>
+      <source>Published FFDS</source>
+      <translation>FFDS, publiziert</translation>
+    </message>
+    <message>
       <source>Range ±</source>
       <translation>Bereich ±</translation>
     </message>
@@ -514,10 +514,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Punkte von {scan} ersetzen, sodass daraus Entstandenes folgt, oder einen weiteren Scan hinzufügen?</translation>
     </message>
     <message>
-      <source>Replacing is for plain shapes without a history</source>
-      <translation>Ersetzen lassen sich einfache Formen ohne Historie</translation>
-    </message>
-    <message>
       <source>Report (*.json)</source>
       <translation>Bericht (*.json)</translation>
     </message>
@@ -526,8 +522,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Ergebnis</translation>
     </message>
     <message>
-      <source>Robust: noise, gaps and clutter</source>
-      <translation>Robust: Rauschen, Lücken und Fremdes</translation>
+      <source>Robust</source>
+      <translation>Robust</translation>
+    </message>
+    <message>
+      <source>Robust copes with noise, gaps and clutter; FFDS as it was published; FFD by Hsu, with a lattice in space</source>
+      <translation>Robust kommt mit Rauschen, Lücken und Fremdem zurecht; FFDS, wie es publiziert wurde; FFD nach Hsu mit einem Gitter im Raum</translation>
     </message>
     <message>
       <source>Scan</source>
