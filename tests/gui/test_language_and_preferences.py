@@ -36,10 +36,9 @@ def test_german_is_complete_and_compiled(collected):
     root = ElementTree.parse(TRANSLATIONS / "FFDS_de.ts").getroot()
     known = {(context.findtext("name"), item.findtext("source")): item.findtext("translation")
              for context in root.iter("context") for item in context.iter("message")}
-    window, sentences = (({text for text in texts if (text[0] == "Sentence") is below} for texts in (known, collected))
-                         for below in (False, True))
-    assert not set.symmetric_difference(*window), "run resources/scripts/translations.py"
-    assert len(set.symmetric_difference(*sentences)) <= BEHIND, "run resources/scripts/translations.py"
+    differ = set(known).symmetric_difference(collected)
+    sentences = {text for text in differ if text[0] == "Sentence"}
+    assert differ == sentences and len(sentences) <= BEHIND, "run resources/scripts/translations.py"
     translator = QtCore.QTranslator()
     assert translator.load(str(TRANSLATIONS / "FFDS_de.qm"))
     for (context, text), german in known.items():
