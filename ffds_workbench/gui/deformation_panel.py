@@ -176,7 +176,8 @@ class DeformationPanel:
         self._overlay.cover(*self._covered(job))
         self._drawing.show(job.source.model.shape, patches, job.settings.freeze, limit, self._wished.lattice,
                            job.source.T_document_part)
-        self.form.show_size(patches[0].size)
+        if job.settings.faces is not None:
+            self.form.show_size(patches[0].size)
         self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
 
     def _covered(self, job: Job) -> list[Any]:

@@ -17,7 +17,6 @@ from ..brep import workpiece
 from ..errors import RefusedError
 from ..objects.job import Settings
 from ..objects.lattices import Lattice, draw_lattice
-from ..registration.face import FaceGeometry
 from ..registration.ffd import register_ffd
 from ..registration.ffds import register_ffds
 from ..registration.observed import observed_faces
@@ -30,7 +29,7 @@ from .face_on_scan import Array, Deviations, FaceOnScan
 from .translating import tr
 from .whole_preview import WholePreview
 
-COARSE = 6000
+COARSE = 3000
 """Scan points per face that are looked at while a control is being moved."""
 _COARSE_SAMPLE, _COARSE_STIFF, _COARSE_SOFT = 4000, ((1e4, 5.0), (1e3, 2.0)), ((30.0, 1.2),)
 _PAPER_LATTICE = (10, 10)
@@ -117,7 +116,7 @@ class Preview:
         every = max(1, -(-len(index) // COARSE)) if coarse else 1
         if coarse and settings.lattice == "auto" and name in self._sizes:
             settings = replace(settings, lattice=self._sizes[name])
-        found = _register(face.geometry, self._points[index[::every]], settings, coarse)
+        found = _register(face, self._points[index[::every]], settings, coarse)
         if coarse and settings.lattice == "auto":
             self._sizes[name] = _size(found.displacement)
         return _patch(face, face.deviations(found.displacement, every).near(), found.displacement, found.coverage, True)
@@ -141,14 +140,16 @@ def _patch(face: FaceOnScan, deviations: Deviations, displacement: SplineSurface
                  face.at_corners(deviations), deviations.before, deviations.after, coverage, _size(displacement))
 
 
-def _register(geometry: FaceGeometry, points: Array, settings: Settings, coarse: bool) -> FaceRegistration:
+def _register(face: FaceOnScan, points: Array, settings: Settings, coarse: bool) -> FaceRegistration:
     if settings.method == "robust":
         lattice = None if settings.lattice == "auto" else settings.lattice
         robust = Tuning(settings.stiffness, settings.gate).robust()
-        return register_robust(geometry, points, lattice, _coarse(robust) if coarse else robust)
+        if not coarse:
+            return register_robust(face.geometry, points, lattice, robust)
+        return register_robust(face.geometry, points, lattice, _coarse(robust), face.raster)
     published = register_ffds if settings.method == "ffds" else register_ffd
     lattice = _PAPER_LATTICE if settings.lattice == "auto" else settings.lattice
-    return published(geometry, points, lattice, settings.source_points)
+    return published(face.geometry, points, lattice, settings.source_points)
 
 
 def _coarse(settings: RobustSettings) -> RobustSettings:

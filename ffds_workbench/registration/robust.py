@@ -20,7 +20,7 @@ from .face_points import FacePoints, face_points
 from .lattice_size import automatic_lattice, coarse_lattice
 from .normals import facing, scan_normals
 from .patches import main_patches, patches, proven
-from .raster import make_raster
+from .raster import Raster, make_raster
 from .raster_fit import RasterFit, RobustSettings
 from .result import FaceRegistration
 from .splines import Array
@@ -33,7 +33,7 @@ _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
-                    settings: RobustSettings | None = None) -> FaceRegistration:
+                    settings: RobustSettings | None = None, raster: Raster | None = None) -> FaceRegistration:
     """Deform a face to a scan that may be noisy, incomplete and full of other things.
 
     Parameters
@@ -42,6 +42,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     scan : (n, 3) in mm, finite, in the frame of the model; clutter, other faces and gaps are expected
     lattice : (N_i, N_j) control points in u and v, or None to choose them from the data
     settings : gates, stiffness and reach; None for the defaults
+    raster : `make_raster` of the face where it is at hand already; a fine lattice needs a finer one
 
     Raises
     ------
@@ -49,7 +50,9 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
     settings = settings or RobustSettings()
-    raster = make_raster(face, max(_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0))))
+    cells = max(_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0)))
+    if raster is None or cells > _CELLS:
+        raster = make_raster(face, cells)
     # What lies farther than the face is long cannot be told from its surroundings.
     settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
     margin = min(settings.margin, 0.5 * float(raster.depth.max()))
