@@ -11,6 +11,7 @@ from ..brep.field import local_displacements
 from ..brep.joint_part import joint_part
 from ..brep.workpiece import Workpiece
 from ..errors import RefusedError
+from ..registration.far_side import far_side
 from ..registration.ffd import register_ffd
 from ..registration.ffds import register_ffds
 from ..registration.joint import JointFace, JointRegistration, SensorProfile, register_joint
@@ -24,6 +25,9 @@ from .tuning import Tuning
 Lattice = tuple[int, int] | str
 
 _HSU_LATTICE = (10, 10)
+_SUSPECT, _CERTAIN = 1.5, 3.0
+"""How much nearer the far side of a sheet has to be than the named face: to be looked into, and to be believed where
+the scan shows a single face."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,30 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
     face = part.geometry(index)
     size = None if lattice == "auto" else lattice
     if method == "ffds":
-        return register_ffds(face, cloud.points, size, source_points)
-    if method == "ffd-hsu":
-        return register_ffd(face, cloud.points, size or _HSU_LATTICE, source_points)
-    return register_robust(face, cloud.points, size, tuning.robust())
+        found = register_ffds(face, cloud.points, size, source_points)
+    elif method == "ffd-hsu":
+        found = register_ffd(face, cloud.points, size or _HSU_LATTICE, source_points)
+    else:
+        found = register_robust(face, cloud.points, size, tuning.robust())
+    _refuse_far_side(part, index, found, cloud, tuning)
+    return found
+
+
+def _refuse_far_side(part: Workpiece, index: int, found: FaceRegistration, cloud: PointCloud, tuning: Tuning) -> None:
+    """Refuse a face that was deformed onto the far side of its sheet, if that is what the scan as a whole shows.
+
+    Where it does not tell, the word of the user who named the face counts.
+    """
+    other, nearer = far_side(part.geometry(index), found, [part.geometry(i) for i in range(len(part.faces))])
+    if nearer < _SUSPECT:
+        return
+    try:
+        whole = register_joint(joint_part(part, ()), cloud.points, tuning.joint())
+    except RefusedError:
+        return
+    name = part.faces[index].name
+    seen = {face.name: face.coverage for face in whole.faces if face.points}
+    tells = len(seen) > 1 or nearer > _CERTAIN
+    if tells and not whole.unsure and seen.get(name, 0.0) < seen.get(other, 0.0):
+        raise RefusedError(f"The scan shows {other}, on the other side, and not {name}: name {other} instead, or "
+                           f"register all faces together, which carries {name} along.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from ..splines import Array
 from .lattice import Index
@@ -68,7 +68,7 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samp
         variance = np.maximum(variance, 0) + (_EDGE_MISFIT**2 + misfit[start : start + len(part), None])
         total = variance.sum(axis=1)
         freedom = np.clip(total**2 / (variance**2).sum(axis=1), 1.0, 2.0)
-        bands[start : start + len(part)] = np.sqrt(total / freedom * chi2.ppf(0.95, freedom))
+        bands[start : start + len(part)] = np.sqrt(total / freedom * chdtri(freedom, 0.05))
     return _quantile(gap) / TWO_SIDED * bands
 
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from matplotlib.path import Path as Polygon
 from numpy.typing import NDArray
 
 from ...registration.face import FaceGeometry
@@ -41,6 +40,8 @@ class Samples:
 
 def inside_trims(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
     """Which of the parameters (n, 2) lie on the material side of the trims, by the even-odd rule; (n,)."""
+    from matplotlib.path import Path as Polygon
+
     inside = np.zeros(len(uv), dtype=bool)
     for polyline in trims:
         near = np.flatnonzero(((uv >= polyline.min(axis=0)) & (uv <= polyline.max(axis=0))).all(axis=1))
