@@ -221,6 +221,13 @@ def test_plain_plate_from_one_side_is_ambiguous():
     assert any(is_right(pose.T_model_scan, moved, target.centre) for pose in found.poses)
 
 
+def test_a_plane_face_is_aligned():
+    random = np.random.default_rng(0)
+    scan = np.column_stack([random.uniform((0, 0), (60, 40), (5000, 2)), random.normal(0, 0.05, 5000)])
+    found = align(target_of(geometry(Part.makePlane(60, 40))), apply(anywhere(scan, 3), scan), "global")
+    assert found.verdict == AMBIGUOUS
+
+
 def test_another_part_fails(bracket, channel):
     assert align(channel[0], apply(anywhere(bracket[1], 1), bracket[1]), "global").verdict == FAILED
 

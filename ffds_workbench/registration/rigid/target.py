@@ -33,6 +33,8 @@ _FACING = 0.3
 _GRAZING = 0.15
 """Cosine under which a surface is too oblique for a camera to see it."""
 
+_FLAT = 1e-9
+"""Width of a shadow, as a share of its length, that is none."""
 _FACE_ON = 0.6
 """Cosine from which a view proves that a sample can be seen: the depth buffer is too coarse for obliquer ones."""
 
@@ -144,7 +146,9 @@ class Target:
         """Largest area in mm² that the part covers on a plane, of those across its principal axes."""
         arm = self.samples.points - self.centre
         axes = np.linalg.eigh(arm.T @ arm)[1]
-        return max(ConvexHull(arm @ np.delete(axes, k, axis=1)).volume for k in range(3))
+        pictures = [arm @ np.delete(axes, k, axis=1) for k in range(3)]
+        return max(ConvexHull(points).volume for points in pictures  # a plane face is a line from aside
+                   if np.ptp(points, axis=0).min() > _FLAT * np.ptp(points))
 
     def heights(self, points: Array, nearest: NDArray[np.intp]) -> tuple[Array, Array]:
         """Signed heights of points over the faces, to second order about the nearest sample.
