@@ -63,8 +63,8 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
 
     Parameters
     ----------
-    model : a `Model`, a shape or a document object
-    scan : a `PointCloud`, or (n, 3) points in mm; a unit off by 1000, 100, 10 or 25.4 is recognised
+    model : a `Model`, a file, a shape or a document object
+    scan : a `PointCloud`, a file, or (n, 3) points in mm; a unit off by 1000, 100, 10 or 25.4 is recognised
     mode : "fine" from where the scan lies, within some 30°; "global" from anywhere
     progress : called with what is being done
     start : (4, 4), a T_model_scan given by hand: the pose is sought close around it, whatever the mode

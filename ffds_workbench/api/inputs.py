@@ -25,13 +25,17 @@ def read_model(path: str | Path, label: str | None = None) -> Model:
     return files.read(path, label)
 
 
-def as_model(model: Model | Part.Shape | object) -> Model:
+def as_model(model: Model | Part.Shape | str | Path | object) -> Model:
     """A model in any of the forms that the jobs take."""
+    if isinstance(model, (str, Path)):
+        return read_model(model)
     return model if isinstance(model, Model) else files.from_object(model)
 
 
-def as_cloud(scan: PointCloud | np.ndarray) -> PointCloud:
-    """A scan in any of the forms that the jobs take."""
+def as_cloud(scan: PointCloud | np.ndarray | str | Path) -> PointCloud:
+    """A scan in any of the forms that the jobs take; a file is one in mm."""
+    if isinstance(scan, (str, Path)):
+        return read_scan(scan)
     if isinstance(scan, PointCloud):
         return scan
     points = np.asarray(scan, dtype=float)

@@ -99,8 +99,8 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
 
     Parameters
     ----------
-    model : a `Model`, a shape or a document object
-    scan : a `PointCloud`, or (n, 3) points in mm, aligned with the model
+    model : a `Model`, a file, a shape or a document object
+    scan : a `PointCloud`, a file, or (n, 3) points in mm, aligned with the model
     faces : names like "Face6", numbered as FreeCAD numbers the shape, each registered by itself; None for the whole
         part: all faces together with "robust", every face that the scan observes by itself with the other methods
     method : "robust", "ffds" for the published algorithm, or "ffd-hsu" for a lattice in space around each face

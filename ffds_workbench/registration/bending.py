@@ -60,6 +60,36 @@ def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: N
     return energy, layout.symmetric(products)
 
 
+def curvature_variation(surface: SplineSurface, lattice: ControlLattice, layout: NormalMatrix) -> Array:
+    """Banded matrix of ∫ |∇³d|² over an affine surface, for a displacement d along its normal.
+
+    What bends evenly costs nothing (Moreton and Séquin, Functional optimization for fair surface design, 1992).
+
+    Parameters
+    ----------
+    surface : affine in (u, v)
+    lattice, layout : the control lattice, with one component
+    """
+    u, weight_u = _nodes(lattice.knots_u)
+    v, weight_v = _nodes(lattice.knots_v)
+    _, s_u, s_v, *_ = frames(surface, u[:1], v[:1])
+    along, across = np.linalg.inv(np.linalg.qr(np.concatenate([s_u, s_v]).T)[1]).T  # unit steps, in u and v
+    polynomials = [np.polymul(np.polymul(a, b), c) for a, b, c in
+                   ((along, along, along), (along, along, across), (along, across, across), (across, across, across))]
+    form = np.array(polynomials) * np.sqrt([1, 3, 3, 1])[:, None]
+    product = form.T @ form * np.linalg.norm(np.cross(s_u, s_v))
+    cell = np.outer(weight_u, weight_v)[None]
+    bases_u = [basis_matrix(lattice.knots_u, u, derivative=3 - k) for k in range(4)]
+    bases_v = [basis_matrix(lattice.knots_v, v, derivative=k) for k in range(4)]
+    energy = np.zeros((layout.band + 1, layout.size))
+    for p in range(4):
+        for q in range(p + 1):
+            products = grid_products(product[p, q] * cell, offset_products(bases_u[p], bases_u[q]),
+                                     offset_products(bases_v[p], bases_v[q]))
+            energy += layout.symmetric(products) if p == q else layout.symmetrised(products)
+    return energy
+
+
 def _density(p: int, q: int, components: int, form: Array, curl: Array, dual: Array, inverse: Array,
              normal: Array) -> Array:
     """Coefficient of (d_p)_a (d_q)_b in the energy density; p, q number the orders.

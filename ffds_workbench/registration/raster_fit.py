@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .bending import bending_and_gauge
+from .bending import bending_and_gauge, curvature_variation
 from .control_lattice import ControlLattice
 from .face import FaceGeometry
 from .face_points import FacePoints
@@ -31,6 +31,8 @@ _RIM_BLOCK = 8
 _STRAY, _OFF = 0.1, 0.2
 """A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
 0.2 standard deviations of the surface, or three of its own."""
+_EVEN_SHARE, _EVEN_LENGTH = 0.1, 10.0
+"""What is left of the price of even bending, and the length in mm over which curvature may change by what it may be."""
 _MOST_NOISIER = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
@@ -123,6 +125,7 @@ class RasterFit:
 
     def __init__(self, face: FaceGeometry, raster: Raster, lattice: ControlLattice, settings: RobustSettings) -> None:
         self.ignored = np.zeros(len(raster.inside), dtype=bool)
+        self.surface = face.surface
         self.raster, self.lattice, self.settings = raster, lattice, settings
         self.size = lattice.size
         self.directions = raster.normal[:1] if raster.flat else np.eye(3)
@@ -132,6 +135,16 @@ class RasterFit:
         self.basis_v = [basis_matrix(lattice.knots_v, raster.v, derivative=k) * raster.step[1] ** k for k in (0, 1)]
         self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
+
+    def allow_even_bending(self) -> None:
+        """From here on a plane may bend, as long as it bends evenly: what its curvature changes by costs instead.
+
+        Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
+        closely, and leads on as it bends where nothing is seen.
+        """
+        if self.raster.flat:
+            variation = curvature_variation(self.surface, self.lattice, self.layout)
+            self.bending = _EVEN_SHARE * self.bending + _EVEN_LENGTH**2 * variation
 
     def moved(self, motion: SmallMotion) -> State:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""

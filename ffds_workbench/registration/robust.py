@@ -87,6 +87,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     if size != fit.size:
         fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     fit.ignored = ignored
+    fit.allow_even_bending()
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
         state = fit.step(state, points if k == len(settings.final) - 1 else points.sample, noise, stiffness, gate)

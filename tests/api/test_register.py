@@ -88,6 +88,15 @@ def test_deviation_of_an_array():
     assert figures["signed_mean"] == pytest.approx(0.2, abs=1e-9)
 
 
+def test_files_are_read(tmp_path):
+    points = np.random.default_rng(0).uniform((1, 1, 5.2), (59, 39, 5.2), (500, 3))
+    model, scan = tmp_path / "plate.step", tmp_path / "scan.xyz"
+    Part.makeBox(60, 40, 5).exportStep(str(model))
+    np.savetxt(scan, points)
+    figures = api.deviation(str(model), scan).report["deviation"]
+    assert figures["signed_mean"] == pytest.approx(0.2, abs=1e-9)
+
+
 def test_progress_is_told(scan):
     told: list[str] = []
     api.deviation(Part.makeBox(60, 40, 5), scan, told.append)

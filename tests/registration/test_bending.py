@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bending energies against integrals done by hand."""
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
-from ffds_workbench.registration.bending import bending_and_gauge
+from ffds_workbench.registration.bending import bending_and_gauge, curvature_variation
 from ffds_workbench.registration.control_lattice import displacement_lattice
 from ffds_workbench.registration.ffds import solve as fit_exactly
 from ffds_workbench.registration.normal_equations import normal_matrix, solve
@@ -21,10 +23,10 @@ def dense(banded: np.ndarray) -> np.ndarray:
     return np.maximum(full, full.T) + np.minimum(full, full.T) - np.diag(np.diag(full))
 
 
-def energy(face, size, components, field) -> float:
+def energy(face, size, components, field, of=lambda *args: bending_and_gauge(*args)[0]) -> float:
     lattice = displacement_lattice(face.surface, size)
     layout = normal_matrix(lattice, components)
-    bending, _ = bending_and_gauge(face.surface, lattice, layout)
+    bending = of(face.surface, lattice, layout)
     u0, u1, v0, v1 = face.surface.range
     u, v = np.linspace(u0, u1, 60, endpoint=not lattice.periodic_u), np.linspace(v0, v1, 40)
     values = field(face.surface.on_grid(u, v).reshape(-1, 3))
@@ -38,6 +40,21 @@ def test_plane():
     """z = 0.001 x² + 0.002 x y: ∫ z_xx² + 2 z_xy² + z_yy² = (0.002² + 2·0.002²) · 75 · 70, exact for cubics."""
     field = lambda p: (0.001 * p[:, 0] ** 2 + 0.002 * p[:, 0] * p[:, 1])[:, None]
     assert energy(sheet.nominal(), (9, 7), 1, field) == pytest.approx(3 * 0.002**2 * 75 * 70, rel=1e-9)
+
+
+def test_even_bending_of_a_plane():
+    """What bends evenly costs nothing; z = a x³ + b x² y + c y³ costs ∫ z_xxx² + 3 z_xxy² + z_yyy², exact for cubics.
+
+    The same plane with sheared parameters, over 75 × 70 mm again, costs the same."""
+    evenly = lambda p: (0.001 * p[:, 0] ** 2 + 0.002 * p[:, 0] * p[:, 1])[:, None]
+    a, b, c = 1e-5, 2e-5, 3e-5
+    unevenly = lambda p: (a * p[:, 0] ** 3 + b * p[:, 0] ** 2 * p[:, 1] + c * p[:, 1] ** 3)[:, None]
+    expected = ((6 * a) ** 2 + 3 * (2 * b) ** 2 + (6 * c) ** 2) * 75 * 70
+    plane = sheet.nominal()
+    shear = plane.surface.control_points @ np.array([[1.0, 0.0, 0.0], [0.4, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    for face in (plane, replace(plane, surface=replace(plane.surface, control_points=shear))):
+        assert energy(face, (9, 7), 1, evenly, curvature_variation) < 1e-9 * expected
+        assert energy(face, (9, 7), 1, unevenly, curvature_variation) == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("face", [sheet.nominal(), curved_face()], ids=["plane", "cylinder"])
