@@ -21,6 +21,7 @@ _SATURATED = 0.8
 _FLOOR = 0.1
 """Uncertainty of a rim that no density takes away, in widths: rounded edges, mixed pixels."""
 
+
 @dataclass(frozen=True)
 class Ends:
     """Stretches of rim along which the scan is seen to end.
