@@ -49,7 +49,7 @@ fi
 step "tests in plain Python" "$python" -m pytest -q --ignore tests/gui "$@"
 step "tests in freecadcmd" freecadcmd -c \
     "import sys, pytest; sys.exit(pytest.main(['-q', 'tests/api', 'tests/brep', 'tests/objects', 'tests/report', 'tests/scan']))"
-step "tests in FreeCAD's GUI" timeout 600 xvfb-run -a -s "-screen 0 1600x1000x24" freecad tests/gui/run_in_freecad.py
+step "tests in FreeCAD's GUI" timeout 1200 xvfb-run -a -s "-screen 0 1600x1000x24" freecad tests/gui/run_in_freecad.py
 
 echo
 if [ -n "$failed" ]; then
