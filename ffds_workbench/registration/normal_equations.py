@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg.blas import dsbmv
 
 from .control_lattice import ControlLattice
 from .splines import DEGREE, Array, tensor_product
@@ -92,6 +93,12 @@ class NormalMatrix:
     def control_points(self, solution: Array) -> Array:
         """Stored control points of a solution, (size,) to (nu, nv, components)."""
         return solution[self.unknown]
+
+    def energy(self, matrix: Array, control_points: Array) -> float:
+        """xᵀ A x for stored control points (nu, nv, components) and a banded A."""
+        unknowns = np.zeros(self.size)
+        unknowns[self.unknown.ravel()] = control_points.ravel()
+        return float(unknowns @ dsbmv(self.band, 1.0, matrix, unknowns))
 
     def _scattered(self, place: Index, values: Array) -> Array:
         flat = np.asarray(np.bincount(place, values, (self.band + 1) * self.size), dtype=float)

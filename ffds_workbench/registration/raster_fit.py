@@ -31,8 +31,9 @@ _RIM_BLOCK = 8
 _STRAY, _OFF = 0.1, 0.2
 """A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
 0.2 standard deviations of the surface, or three of its own."""
-_EVEN_SHARE, _EVEN_LENGTH = 0.1, 10.0
-"""What is left of the price of even bending, and the length in mm over which curvature may change by what it may be."""
+_BENDING_SHARE, _EVEN_SHARE, _LONGEST = 0.1, 0.6, 20.0
+"""Price of all bending and of uneven bending, as shares of what bending cost before; and the longest length in mm over
+which curvature is expected to change."""
 _MOST_NOISIER = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
@@ -136,15 +137,19 @@ class RasterFit:
         self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
 
-    def allow_even_bending(self) -> None:
+    def allow_even_bending(self, state: State) -> None:
         """From here on a plane may bend, as long as it bends evenly: what its curvature changes by costs instead.
 
         Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
-        closely, and leads on as it bends where nothing is seen.
+        closely, and leads on as it bends where nothing is seen. The length over which curvature may change is that of
+        the displacement found so far, on this lattice.
         """
-        if self.raster.flat:
-            variation = curvature_variation(self.surface, self.lattice, self.layout)
-            self.bending = _EVEN_SHARE * self.bending + _EVEN_LENGTH**2 * variation
+        if not self.raster.flat:
+            return
+        variation = curvature_variation(self.surface, self.lattice, self.layout)
+        bent, varied = (self.layout.energy(matrix, state.control_points) for matrix in (self.bending, variation))
+        share = min(_EVEN_SHARE * bent / max(varied, np.finfo(float).tiny), _LONGEST**2)
+        self.bending = _BENDING_SHARE * self.bending + share * variation
 
     def moved(self, motion: SmallMotion) -> State:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""

@@ -87,11 +87,12 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     if size != fit.size:
         fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
     fit.ignored = ignored
-    fit.allow_even_bending()
     noise = layers.noise
     for k, (stiffness, gate) in enumerate(settings.final):
         state = fit.step(state, points if k == len(settings.final) - 1 else points.sample, noise, stiffness, gate)
         noise = state.noise
+        if k == 0:
+            fit.allow_even_bending(state)
     _check_found(face, state.points)
     coverage = covered_share(raster, state.weights)
     return FaceRegistration(face.name, fit.field(state), state.points, coverage, state.noise)
