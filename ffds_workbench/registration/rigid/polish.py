@@ -13,7 +13,7 @@ from .ends import Ends, fewest_width, find_ends
 from .fine import gauss_newton, refine, tukey
 from .motions import apply, step
 from .sketch import Sketch, thin
-from .smooth import settle
+from .smooth import Outline, settle
 from .target import Target
 from .verify import is_rough
 
@@ -55,7 +55,8 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage
     points = sketch.pool[thin(sketch.pool, _POINTS)]
     outward = (normals @ pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
     pose = refine(target, points, pose, (reach,), 8, outward)
-    return settle(target, points, pose, outward, reach)
+    outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()), sketch.noise)
+    return settle(target, points, pose, outward, reach, outline)
 
 
 def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:

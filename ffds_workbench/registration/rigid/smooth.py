@@ -2,8 +2,7 @@
 """A smooth deformation of space that a scan of the right part is allowed beyond its rigid pose."""
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import combinations_with_replacement
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,29 +10,40 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..splines import Array
-from .fine import tukey
-from .motions import angle, apply, motion, shift
+from .ends import fewest_width, find_ends
+from .field import SOFT, STIFF, Field, Freedom, fit_field
+from .fine import gauss_newton, tukey
+from .motions import angle, apply, motion, shift, step
 from .target import Target
 
 ROUNDS = 6
 _WIDEST = 0.1
 """Gate of the first round as a share of the part's size; each round halves it."""
-_SETTLED = 1e-4
+_SETTLED = 5e-4
 """A motion below this (rad, share of the part's size) ends the search for the pose of a deformed part."""
+_WIDTH, _BLURRED, _OF_WIDTH = 0.01, 1.5, 0.2
+"""Width within which the ends of a scan are counted, as a share of the part's size, and at least in standard deviations
+of the noise; and height, as a share of the width, up to which a deformed part is on its face."""
+_FOR_ENDS, _END_GATE = 30.0, 0.2
+"""Ends weigh more than their own uncertainty gives them, as heights are off by what the polynomials cannot follow; and
+the least cut-off in mm for them, as each is counted from few points."""
+_SLIDES = 4
 
 
 @dataclass(frozen=True)
-class Freedom:
-    """Displacements of space that are allowed: polynomials of a degree, held at zero by a ridge."""
+class Outline:
+    """What of a scan the ends are looked for in.
 
-    degree: int
-    ridge: float
+    Attributes
+    ----------
+    points : (n, 3) in mm
+    area : mm² that they cover
+    noise : standard deviation in mm
+    """
 
-
-STIFF = Freedom(2, 1e-2)
-"""Tells the part from another one."""
-SOFT = Freedom(3, 1e-3)
-"""Follows a deformed part."""
+    points: Array
+    area: float
+    noise: float
 
 
 @dataclass(frozen=True)
@@ -46,6 +56,7 @@ class Match:
     distance : (n,) from the sample in mm, infinite where nothing within reach faces the same way
     nearest : (n,) index of the sample
     height, normal : (n,) in mm over the face, and (n, 3) of the face
+    field : the deformation
     """
 
     points: Array
@@ -53,10 +64,11 @@ class Match:
     nearest: NDArray[np.intp]
     height: Array
     normal: Array
+    field: Field
 
 
 def match(target: Target, points: Array, normals: Array, reach: float, rounds: int = ROUNDS, freedom: Freedom = STIFF,
-          place: Array | None = None, widest: float = _WIDEST) -> Match:
+          ) -> Match:
     """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
 
     Parameters
@@ -65,66 +77,43 @@ def match(target: Target, points: Array, normals: Array, reach: float, rounds: i
     reach : largest distance in mm
     rounds : 0 for no deformation
     freedom : of the deformation
-    place : (n, 3) where the points lie without the deformation, as far as known
-    widest : gate of the first round, as a share of the part's size
     """
-    place = points if place is None else place
+    place, field = points, Field.still(points, target.size, freedom.degree)
     for turn in range(rounds + 1):
         distance, nearest = target.nearest(place, normals, reach)
         height, normal = target.heights(place, nearest)
         if turn < rounds:
-            place = points - _displacement(points, normal, height + np.einsum("ni,ni->n", normal, points - place),
-                                           height, np.isfinite(distance), target.size, widest * target.size * 0.5**turn,
-                                           freedom)
-    return Match(place, distance, nearest, height, normal)
+            wanted = height + np.einsum("ni,ni->n", normal, points - place)
+            field = fit_field(points, normal, wanted, height, np.isfinite(distance), target.samples.tangents[nearest],
+                              _WIDEST * target.size * 0.5**turn, target.size, freedom)
+            place = points - field(points)
+    return Match(place, distance, nearest, height, normal, field)
 
 
-def _displacement(points: Array, normal: Array, wanted: Array, left: Array, chosen: NDArray[np.bool_],
-                  size: float, gate: float, freedom: Freedom) -> Array:
-    """Displacement (n, 3), polynomial in space, whose normal component is as wanted at the chosen points.
-
-    Points count by how much of it is ``left`` to explain, within the gate in mm or the spread of all, if that is wider.
-    """
-    x = (points - points.mean(axis=0)) / (0.5 * size)
-    powers = [power for degree in range(freedom.degree + 1)
-              for power in combinations_with_replacement(range(3), degree)]
-    monomials = np.stack([x[:, power].prod(axis=1) for power in powers], axis=1)
-    rows = (monomials[:, :, None] * normal[:, None, :]).reshape(len(x), -1)
-    if chosen.sum() < 2 * rows.shape[1]:
-        return np.zeros_like(points)
-    for _ in range(3):
-        spread = 1.4826 * float(np.median(np.abs(left[chosen])))
-        weight = chosen * tukey(left, max(4.0 * spread, gate))
-        matrix = (rows * weight[:, None]).T @ rows
-        matrix += np.eye(len(matrix)) * (freedom.ridge * weight.sum() / 30.0 + 1e-12)
-        coefficients = np.linalg.solve(matrix, rows.T @ (weight * wanted))
-        left = wanted - rows @ coefficients
-    return monomials @ coefficients.reshape(-1, 3)
-
-
-def settle(target: Target, points: Array, pose: Array, normals: Array, reach: float, iterations: int = 6) -> Array:
+def settle(target: Target, points: Array, pose: Array, normals: Array, reach: float, outline: Outline,
+           iterations: int = 4) -> Array:
     """Least-squares pose of a deformed part: each place of it against where it lies without the deformation.
 
-    Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface; the smoothest
-    deformation that explains them does not.
+    Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface. Of the deformations
+    that explain them the smoothest that stretches least is taken back; where the scan then ends tells how far it slid.
 
     Parameters
     ----------
     points, normals : (n, 3) of the scan, scan coordinates, normals outward
     pose : (4, 4), T_model_scan to start from
     reach : in mm
+    outline : of the scan, scan coordinates
     """
-    place, rounds, widest = None, ROUNDS, _WIDEST
     for _ in range(iterations):
         moved = apply(pose, points)
-        found = match(target, moved, normals @ pose[:3, :3].T, reach, rounds, SOFT, place, widest)
+        found = match(target, moved, normals @ pose[:3, :3].T, reach, ROUNDS, SOFT)
         spread = 1.4826 * float(np.median(np.abs(found.height)))
         sure = np.isfinite(found.distance) & (np.abs(found.height) < max(6.0 * spread, 2e-3 * target.size))
         if sure.sum() < 100:
             break
-        # the deformation goes on from here, and only its fine matches change
-        place, rounds, widest = found.points, 2, _WIDEST * 0.5**ROUNDS
-        foot = place[sure] - found.height[sure, None] * found.normal[sure]
+        around = apply(pose, outline.points)
+        foot = _slid(target, found.points[sure], found.nearest[sure],
+                     replace(outline, points=around - found.field(around)))
         # the whole part counts evenly, also where the scan is thin or shows one side alone
         goals = target.even.points
         more = best_fit(goals + (moved[sure] - foot)[cKDTree(foot).query(goals)[1]], goals)
@@ -134,8 +123,30 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
     return pose
 
 
-def best_fit(points: Array, goals: Array) -> Array:
-    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares."""
-    middle, goal = points.mean(axis=0), goals.mean(axis=0)
-    rotation = Rotation.align_vectors(goals - goal, points - middle)[0].as_matrix()
+def _slid(target: Target, points: Array, nearest: NDArray[np.intp], outline: Outline) -> Array:
+    """Foot points (n, 3) of points on their faces, after the rigid slide that brings the ends to the rims."""
+    width = max(_WIDTH * target.size, fewest_width(target.rims, len(outline.points) / outline.area),
+                _BLURRED * outline.noise)
+    slide = np.eye(4)
+    for _ in range(_SLIDES):
+        moved = apply(slide, points)
+        height, normal = target.heights(moved, nearest)
+        spread = max(1.4826 * float(np.median(np.abs(height))), 1e-6 * target.size)
+        ends = find_ends(target.rims, apply(slide, outline.points), width, 4.0 * outline.noise + _OF_WIDTH * width)
+        gate = max(4.0 * 1.4826 * float(np.median(np.abs(ends.gap))), _END_GATE) if len(ends.gap) else _END_GATE
+        weight = np.concatenate([tukey(height, 4.0 * spread),
+                                 _FOR_ENDS * spread**2 * ends.weight * tukey(ends.gap, gate)])
+        update = gauss_newton(np.concatenate([moved, ends.places]) - target.centre,
+                              np.concatenate([normal, ends.outwards]), np.concatenate([height, ends.gap]), weight,
+                              target.size)
+        slide = step(update, target.centre) @ slide
+    moved = apply(slide, points)
+    height, normal = target.heights(moved, nearest)
+    return moved - height[:, None] * normal
+
+
+def best_fit(points: Array, goals: Array, weights: Array | None = None) -> Array:
+    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares, weighted by (n,)."""
+    middle, goal = np.average(points, axis=0, weights=weights), np.average(goals, axis=0, weights=weights)
+    rotation = Rotation.align_vectors(goals - goal, points - middle, weights=weights)[0].as_matrix()
     return motion(rotation, goal - rotation @ middle)
