@@ -78,14 +78,14 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    scalar = weight * problem.bending + problem.coupled + trust.shear * problem.shear
-    blocks = (scalar[:, None, None] * np.eye(3) + problem.smooth + trust.dihedral * problem.dihedral
-              + (trust.thickness - trust.shear) * problem.thickness)
+    scalar = problem.coupled + trust.shear * problem.shear
+    blocks = (scalar[:, None, None] * np.eye(3) + weight * problem.bending + problem.smooth
+              + trust.dihedral * problem.dihedral + (trust.thickness - trust.shear) * problem.thickness)
     bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
-    right = (weight * gather(problem, stiffness.bending_load(normal, bent))
+    right = (weight * gather(problem, stiffness.bending_load(control_points, problem.lattices, normal, bent))
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
-             - _apply(problem, weight * problem.bending + problem.coupled, control_points))
+             - _apply(problem, problem.coupled, control_points))
     return NormalEquations(blocks, right) + _isometry(problem, control_points, normal, problem.isometry_weights(trust))
 
 

@@ -23,9 +23,10 @@ _REACH = 4.0
 _FARTHEST = 2.0
 """Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
 _SHARP = 0.7
-_RANK = 3
-"""The edge lies beyond the third outermost point, by what three points take of the density: two and a half, since
-sensors take points in rows, which spread more evenly than chance does."""
+_RANKS, _WITHIN_NOISE = 3, 0.4
+"""The edge lies beyond the outermost point by what half a point takes of the density: sensors take points in rows,
+which spread more evenly than chance does. Where more than one lies within this part of the noise, which carries points
+over the edge, it is the second or the third one that counts."""
 _BAND = (0.5, 2.0)
 """Distance inside the outermost points, in mm, between which the density is counted."""
 _FEWEST = 12
@@ -138,18 +139,19 @@ def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, othe
     on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise) & (
         np.einsum("nx,nx->n", local, away[row]) < -_BAND[0])
     unlike = ~on_seen & (on_other | (across > -_BAND[0]))
-    outermost = _rank_from_top(row[on_seen], across[on_seen], count)
-    inside = outermost[row] - across
+    outermost = _from_top(row[on_seen], across[on_seen], count)
+    inside = outermost[-1, row] - across
     population, strange, samples = (
         _running(np.nansum, edges.edge, values) for values in
         (_count(row[on_seen & (inside > _BAND[0]) & (inside < _BAND[1])], count), _count(row[unlike], count),
          np.ones(count)))
     per_mm = np.maximum(population / samples / (_BAND[1] - _BAND[0]), 1e-9)
-    offset = outermost + (_RANK - 0.5) / per_mm
+    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * per_mm), 1, _RANKS).astype(int)
+    offset = outermost[rank - 1, np.arange(count)] + (rank - 0.5) / per_mm
     good = sharp & (population >= _FEWEST) & (strange < _UNSEEN * population) & (np.abs(offset) < _FARTHEST)
     if not good.any():
         return nothing
-    sigma = np.hypot(_FLOOR, np.sqrt(_RANK) / per_mm)
+    sigma = np.hypot(_FLOOR, np.sqrt(rank) / per_mm)
     around = _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))
     off = np.abs(offset - around) / (_HUBER * sigma)
     good &= off < _DISCARD
@@ -164,14 +166,15 @@ def _across(edges: EdgeSamples, side: Samples, sign: Array, control_points: Arra
     return normal, out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12)
 
 
-def _rank_from_top(row: Index, value: Array, count: int) -> Array:
-    """The third largest value of every row; NaN where there are fewer."""
+def _from_top(row: Index, value: Array, count: int) -> Array:
+    """The largest values of every row in falling order, (ranks, rows); NaN where there are fewer."""
     order = np.lexsort((value, row))
     end = np.searchsorted(row[order], np.arange(count), side="right")
     start = np.searchsorted(row[order], np.arange(count), side="left")
-    enough = end - start >= _RANK
-    result = np.full(count, np.nan)
-    result[enough] = value[order[end[enough] - _RANK]]
+    enough = end - start >= _RANKS
+    result = np.full((_RANKS, count), np.nan)
+    for rank in range(_RANKS):
+        result[rank, enough] = value[order[end[enough] - 1 - rank]]
     return result
 
 

@@ -20,7 +20,7 @@ from .raster import Places, distance_to_trims, make_places, normals
 from .settings import JointSettings, Trust
 from .sheet import find_pairs
 from .statistics import ScanStatistics, scan_statistics
-from .stiffness import GAUSS_PLACES, Stiffness, make_stiffness
+from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
 from .system import Pattern
 
 _SAMPLE = 15000
@@ -120,11 +120,23 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     distance = distance_to_trims(part.faces, lattices, cells)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
-                   pattern.from_spans(stiffness.bending_blocks()), pattern.from_scalar(couplings.scalar),
+                   _bending(pattern, stiffness), pattern.from_scalar(couplings.scalar),
                    pattern.from_scalar(couplings.shear), pattern.from_vector(couplings.thickness),
                    pattern.from_vector(couplings.smooth), pattern.from_vector(couplings.dihedral),
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
+
+
+def _bending(pattern: Pattern, stiffness: Stiffness) -> Array:
+    """Rows of bending on the pattern: (size, 3, 3)."""
+    every, along = stiffness.bending_blocks()
+    blocks = (SLIDING * pattern.from_spans(every))[:, None, None] * np.eye(3)
+    for number, (a, b) in enumerate(COMPONENTS):
+        value = (1 - SLIDING) * pattern.from_spans(along[:, number])
+        blocks[:, a, b] += value
+        if a != b:
+            blocks[:, b, a] += value
+    return blocks
 
 
 def _positions(lattices: Lattices, cells: Places) -> Array:

@@ -82,9 +82,9 @@ class JointSettings:
     curvature: float = 0.002
     curvature_length: float = 10.0
     isometry_weight: float = 3000.0
-    isometry_weight_walls: float = 30.0
+    isometry_weight_walls: float = 10.0
     thickness_sigma: float = 0.02
-    edge_sigma: float = 1e-3
+    edge_sigma: float = 3e-4
     dihedral_sigma: float = 0.01
     pose_sigma: float = 1.0
     schedule: tuple[Stage, ...] = SCHEDULE

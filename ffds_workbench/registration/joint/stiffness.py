@@ -17,7 +17,11 @@ from .raster import Places, normals
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 GAUSS_PLACES = (_NODES + 1) / 2
 _PAIRS = ((0, 0), (0, 1), (1, 1))
+COMPONENTS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+"""Components of a symmetric matrix of x, y and z."""
 _NORM = np.array([1.0, np.sqrt(2.0), 1.0])
+SLIDING = 0.3
+"""Weight of what bends within the surface, which is no bending of it, beside what bends across it."""
 _OUTSIDE = 1e-3
 """Weight of the integral outside the trims, where it only has to keep the lattice smooth."""
 
@@ -47,13 +51,17 @@ class Stiffness:
     normal: Array
     tangent: Array
 
-    def bending_blocks(self) -> Array:
-        """∫ d_;ij d_;ij as one 16 × 16 block per span; the same for x, y and z."""
+    def bending_blocks(self) -> tuple[Array, Array]:
+        """∫ d_;ij d_;ij as one block per span: of all components (spans, 16, 16), the same for x, y and z, and of those
+        along the nominal normals (spans, 6, 16, 16), for each of `COMPONENTS`."""
         rows = self.hessian.reshape(len(self.hessian), -1, 16)
         weight = np.repeat(self.weight, 3, axis=1)[:, :, None]
-        return np.matmul(rows.swapaxes(1, 2), weight * rows)
+        normal = np.repeat(self.normal, 3, axis=1)
+        along = [np.matmul(rows.swapaxes(1, 2), weight * (normal[:, :, a] * normal[:, :, b])[:, :, None] * rows)
+                 for a, b in COMPONENTS]
+        return np.matmul(rows.swapaxes(1, 2), weight * rows), np.stack(along, axis=1)
 
-    def bending_load(self, normal: Array, bent: Array) -> Array:
+    def bending_load(self, control_points: Array, lattices: Lattices, normal: Array, bent: Array) -> Array:
         """Gradient of bending towards the rotated nominal curvature b_ij (n − n₀) + c_ij n: (spans, 16, 3).
 
         ``normal`` is the current n, (spans, k, 3); ``bent`` the change of curvature c that costs nothing, (spans, 3). A
@@ -61,6 +69,9 @@ class Stiffness:
         """
         target = self.curvature[..., None] * (normal - self.normal)[:, :, None, :]
         target += bent[:, None, :, None] * normal[:, :, None, :]
+        target -= np.matmul(self.hessian, control_points[lattices.controls][:, None])
+        across = np.einsum("skpx,skx->skp", target, self.normal)
+        target = SLIDING * target + (1 - SLIDING) * across[..., None] * self.normal[:, :, None, :]
         target *= self.weight[:, :, None, None]
         rows = self.hessian.reshape(len(self.hessian), -1, 16)
         return np.matmul(rows.swapaxes(1, 2), target.reshape(len(rows), -1, 3))
