@@ -19,7 +19,7 @@ from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
-_POINTS, _ON_FACES, _NEAR_RIMS = 2_500, 12_000, 30_000
+_POINTS, _ON_FACES, _NEAR_RIMS = 2_500, 10_000, 30_000
 """Points for the pose of a deformed part; of one that is not, for heights and for ends."""
 _CLOSE = 0.02
 """Gate for a part that is not deformed, as a share of its size."""
@@ -30,7 +30,7 @@ _FIRST_WIDTH = 0.005
 """Width, as a share of the part's size, for the ends of a scan that is not quite there yet."""
 _CUT = 4.0
 _STEPS = 4
-_CANDIDATES = 4
+_CANDIDATES = 3
 
 
 def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float) -> Array:
@@ -70,23 +70,19 @@ def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> 
 def _fit_faces_and_ends(target: Target, sketch: Sketch, pose: Array, coverage: float) -> Array:
     """Least-squares pose of points on the faces and of the scan's ends on the rims, in two rounds."""
     points = sketch.pool[:_ON_FACES]
-    pose = refine(target, points[::3], pose, (_CLOSE * target.size,), 6)
+    pose = refine(target, points[::4], pose, (_CLOSE * target.size,), 6)
     density = len(sketch.scan) / (coverage * float(target.samples.area.sum()))
     narrow = max(_BLURRED * sketch.noise, fewest_width(target.rims, density))
-    for width in (max(_FIRST_WIDTH * target.size, narrow), narrow):
-        ends = _ends(target, sketch, pose, width, len(points))
-        chosen, nearest = _on_one_face(target, apply(pose, points), _APART * sketch.noise)
-        pose = _fit(target, points[chosen], nearest, pose, ends)
+    chosen, nearest = _on_one_face(target, apply(pose, points), _APART * sketch.noise)
+    points, share = points[chosen], len(points) / len(sketch.scan)
+    near = sketch.scan[target.rims.near(apply(pose, sketch.scan))]
+    for width, most in ((max(_FIRST_WIDTH * target.size, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
+        some = near[:: 1 + len(near) // most]
+        ends = find_ends(target.rims, apply(pose, some), width, 4.0 * sketch.noise)
+        # each stands for as many points of the scan as one on a face does
+        weight = ends.weight * sketch.noise**2 * share * len(near) / max(len(some), 1)
+        pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
     return pose
-
-
-def _ends(target: Target, sketch: Sketch, pose: Array, width: float, points: int) -> Ends:
-    """The ends of the scan, weighted against one of so many points on faces that stand for all of it."""
-    near = target.rims.near(apply(pose, sketch.scan))
-    some = near[:: 1 + len(near) // _NEAR_RIMS]
-    ends = find_ends(target.rims, apply(pose, sketch.scan[some]), width, 4.0 * sketch.noise)
-    share = points / len(sketch.scan) * len(near) / max(len(some), 1)
-    return replace(ends, weight=ends.weight * sketch.noise**2 * share)
 
 
 def _on_one_face(target: Target, points: Array, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
