@@ -147,7 +147,8 @@ class RasterFit:
         if not self.raster.flat:
             return
         variation = curvature_variation(self.surface, self.lattice, self.layout)
-        bent, varied = (self.layout.energy(matrix, state.control_points) for matrix in (self.bending, variation))
+        bent = self.layout.energy(self.bending, state.control_points)
+        varied = self.layout.energy(variation, state.control_points)
         share = min(_EVEN_SHARE * bent / max(varied, np.finfo(float).tiny), _LONGEST**2)
         self.bending = _BENDING_SHARE * self.bending + share * variation
 
