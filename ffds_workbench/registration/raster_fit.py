@@ -149,7 +149,7 @@ class RasterFit:
         variation = curvature_variation(self.surface, self.lattice, self.layout)
         bent = self.layout.energy(self.bending, state.control_points)
         varied = self.layout.energy(variation, state.control_points)
-        share = min(_EVEN_SHARE * bent / max(varied, np.finfo(float).tiny), _LONGEST**2)
+        share = min(_EVEN_SHARE * bent / max(varied, 1e-300), _LONGEST**2)
         self.bending = _BENDING_SHARE * self.bending + share * variation
 
     def moved(self, motion: SmallMotion) -> State:
