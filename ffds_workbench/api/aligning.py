@@ -15,6 +15,7 @@ from ..brep.files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
 from ..registration.rigid import FAILED, Alignment, align, target_of
+from ..registration.rigid.motions import difference
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
@@ -49,6 +50,12 @@ class AlignedScan:
                  f"rms deviation {found.rmse:.3f} mm; {100 * found.coverage:.0f} % of the visible part covered"]
         if found.symmetry:
             lines.append(f"Symmetry     the part is {found.symmetry}")
+        if len(found.poses) > 1:
+            here = self.scan.points.mean(axis=0)
+            others = [difference(found.T_model_scan, pose.T_model_scan, here) for pose in found.poses[1:]]
+            lines += [f"Also fits    {'; '.join(dict.fromkeys(others))}",
+                      "Which one    nothing in the scan tells: turn it about as it should lie and align it with mode "
+                      "fine, or scan more of the part"]
         if found.scale != 1.0:
             lines.append(f"Unit         the scan is in {found.unit}: its coordinates were multiplied by "
                          f"{found.scale:g}")

@@ -20,7 +20,9 @@ from ffds_workbench import api
 from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.simulation import target_of as sensor_target_of
 from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
-from ffds_workbench.registration.rigid.motions import angle, apply, motion, shift
+from ffds_workbench.registration.rigid.ends import find_ends
+from ffds_workbench.registration.rigid.field import Field
+from ffds_workbench.registration.rigid.motions import angle, apply, difference, motion, shift
 from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
 from ffds_workbench.registration.rigid.smooth import best_fit
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
@@ -124,6 +126,52 @@ def test_normals_of_a_thin_sheet_keep_their_side_around_its_rim():
         flat = (np.abs(points[:, :2] - (40, 30)) < (35, 25)).all(axis=1) & (sketch.piece == 0)
         side = normals[flat, 2] * np.where(points[flat, 2] > 0.75, 1.0, -1.0)
         assert flat.sum() > 500 and abs(np.mean(side > 0) - 0.5) > 0.47     # noise turns single ones
+
+
+@pytest.mark.parametrize(("noise", "shift_of_scan"), [(0.0, 0.15), (0.1, 0.15), (0.1, -0.2)])
+def test_ends_of_a_scan_are_found_however_noise_blurs_them(noise, shift_of_scan):
+    """The top of a plate alone, 20 points per mm²: 1.5 · width / (density · length) is (0.03 mm)² on its 60 mm."""
+    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
+    rng = np.random.default_rng(0)
+    top = np.column_stack([rng.uniform(0, 60, 48_000), rng.uniform(0, 40, 48_000), np.full(48_000, 3.0)])
+    top[:, 1] += shift_of_scan
+    ends = find_ends(rims, top + rng.normal(0.0, noise, top.shape), 0.6, 0.5)
+    for side in (1.0, -1.0):
+        mine = ends.outwards[:, 1] * side > 0.99
+        assert mine.sum() > 10
+        assert np.average(ends.gap[mine], weights=ends.weight[mine]) == pytest.approx(side * shift_of_scan, abs=0.09)
+
+
+def test_a_wall_that_is_seen_is_no_end():
+    """Beside a wall that the scan shows, points below the face would count as the face going on."""
+    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
+    rng = np.random.default_rng(0)
+    top = np.column_stack([rng.uniform(0, 60, 48_000), rng.uniform(0, 40, 48_000), np.full(48_000, 3.0)])
+    wall = np.column_stack([rng.uniform(0, 60, 3600), np.full(3600, 40.0), rng.uniform(0, 3, 3600)])
+    ends = find_ends(rims, np.concatenate([top, wall]), 0.3, 0.5)
+    assert not ((ends.places[:, 1] > 39.9) & (ends.outwards[:, 1] > 0.99)).any()
+    assert ((ends.places[:, 1] < 0.1) & (ends.outwards[:, 1] < -0.99)).any()
+
+
+def test_strain_of_a_field_is_that_of_its_gradient():
+    """A field with d = A x + b: the strain is the symmetric part of A in the tangent plane; a turn has none."""
+    rng = np.random.default_rng(0)
+    points, matrix = rng.normal(size=(20, 3)), rng.normal(size=(3, 3))
+    still = Field.still(points, 2.0, 2)
+    frames = np.linalg.qr(rng.normal(size=(20, 3, 3)))[0].transpose(0, 2, 1)[:, :2]
+    for gradient in (matrix, matrix - matrix.T):
+        wanted = np.linalg.lstsq(still.monomials(points), points @ gradient.T, rcond=None)[0]
+        strain = (still.strain(points, frames) @ wanted.ravel()).reshape(3, 20)
+        local = frames @ (0.5 * (gradient + gradient.T)) @ frames.transpose(0, 2, 1)
+        expected = np.stack([local[:, 0, 0], local[:, 1, 1], np.sqrt(2.0) * local[:, 0, 1]])
+        assert np.abs(strain - expected).max() < 1e-9
+
+
+def test_poses_are_told_apart_in_words():
+    half = motion(Rotation.from_rotvec([0, 0, -np.pi]).as_matrix(), np.array([1.0, 2.0, 3.0]))
+    assert difference(np.eye(4), half, np.zeros(3)) == "turned by 180° about z"
+    up = motion(np.eye(3), np.array([0.0, 0.0, -3.0]))
+    assert difference(half, up @ half, np.zeros(3)) == "moved by 3 mm along −z"
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -7,6 +7,9 @@ from scipy.spatial.transform import Rotation
 
 from ..splines import Array
 
+_ALONG, _TURNED = 0.9998, 0.02
+"""Cosine from which a direction counts as along an axis, and turn in rad from which poses count as turned."""
+
 
 def motion(rotation: Array, translation: Array) -> Array:
     """4×4 matrices from (…, 3, 3) rotations and (…, 3) translations."""
@@ -68,3 +71,30 @@ def even_directions(count: int) -> Array:
     turn = np.pi * (1.0 + np.sqrt(5.0)) * k
     radius = np.sqrt(1.0 - z * z)
     return np.stack([radius * np.cos(turn), radius * np.sin(turn), z], axis=1)
+
+
+def axis_name(axis: Array) -> str:
+    """What a unit vector (3,) is called: x, y or z, with a sign, where it is one of them, else its components."""
+    largest = int(np.argmax(np.abs(axis)))
+    if abs(axis[largest]) > _ALONG:
+        return ("−" if axis[largest] < 0 else "") + "xyz"[largest]
+    return "({:.2f}, {:.2f}, {:.2f})".format(*np.round(axis, 2) + 0.0)
+
+
+def difference(first: Array, second: Array, place: Array) -> str:
+    """How the second pose (4, 4) differs from the first, in words.
+
+    Parameters
+    ----------
+    place : (3,) in mm, in the frame that the poses lead to: what is said to move where nothing turns
+    """
+    between = second @ np.linalg.inv(first)
+    turn = Rotation.from_matrix(between[:3, :3]).as_rotvec()
+    size = float(np.linalg.norm(turn))
+    if size > _TURNED:
+        half = np.pi - size < _TURNED       # a half turn about an axis is one about its opposite too
+        axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
+        return f"turned by {np.degrees(size):.0f}° about {axis_name(axis)}"
+    way = apply(between, place[None])[0] - place
+    length = float(np.linalg.norm(way))
+    return f"moved by {length:.2g} mm along {axis_name(way / max(length, 1e-12))}"

@@ -28,8 +28,11 @@ _BLURRED, _APART = 1.5, 3.0
 which nobody can tell which face a point is on."""
 _FIRST_WIDTH = 0.005
 """Width, as a share of the part's size, for the ends of a scan that is not quite there yet."""
+_FINEST = 5e-4
+"""Least noise that is reckoned with, as a share of the part's size."""
 _CUT = 4.0
-_STEPS = 4
+_STEPS, _STILL = 4, 1e-5
+"""Steps of a round, and the share of the part's size below which one ends it."""
 _CANDIDATES = 3
 
 
@@ -55,7 +58,8 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage
     points = sketch.pool[thin(sketch.pool, _POINTS)]
     outward = (normals @ pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
     pose = refine(target, points, pose, (reach,), 8, outward)
-    outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()), sketch.noise)
+    outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
+                      max(sketch.noise, _FINEST * target.size))
     return settle(target, points, pose, outward, reach, outline)
 
 
@@ -71,16 +75,17 @@ def _fit_faces_and_ends(target: Target, sketch: Sketch, pose: Array, coverage: f
     """Least-squares pose of points on the faces and of the scan's ends on the rims, in two rounds."""
     points = sketch.pool[:_ON_FACES]
     pose = refine(target, points[::4], pose, (_CLOSE * target.size,), 6)
+    noise = max(sketch.noise, _FINEST * target.size)
     density = len(sketch.scan) / (coverage * float(target.samples.area.sum()))
-    narrow = max(_BLURRED * sketch.noise, fewest_width(target.rims, density))
-    chosen, nearest = _on_one_face(target, apply(pose, points), _APART * sketch.noise)
+    narrow = max(_BLURRED * noise, fewest_width(target.rims, density))
+    chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
     points, share = points[chosen], len(points) / len(sketch.scan)
     near = sketch.scan[target.rims.near(apply(pose, sketch.scan))]
     for width, most in ((max(_FIRST_WIDTH * target.size, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
         some = near[:: 1 + len(near) // most]
-        ends = find_ends(target.rims, apply(pose, some), width, 4.0 * sketch.noise)
+        ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
         # each stands for as many points of the scan as one on a face does
-        weight = ends.weight * sketch.noise**2 * share * len(near) / max(len(some), 1)
+        weight = ends.weight * noise**2 * share * len(near) / max(len(some), 1)
         pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
     return pose
 
@@ -113,4 +118,6 @@ def _fit(target: Target, points: Array, nearest: NDArray[np.intp], pose: Array, 
                               np.concatenate([tukey(height, cutoff), ends.weight]), target.size)
         motion = step(update, target.centre)
         pose, ends = motion @ pose, ends.moved(motion)
+        if np.abs(update[3:]).max() + 0.5 * target.size * np.abs(update[:3]).max() < _STILL * target.size:
+            break
     return pose

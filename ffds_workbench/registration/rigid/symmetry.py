@@ -14,12 +14,14 @@ from scipy.spatial.transform import Rotation
 
 from ..splines import Array
 from .fine import refine
-from .motions import angle, apply, even_rotations, motion
+from .motions import angle, apply, axis_name, even_rotations, motion
 from .target import Target
 
 _EQUAL_MOMENTS = 0.04
 _ANGLES = 72
 _PROBE = 1200
+_HALF = 0.01
+"""Difference in rad from a half turn, which is one about the opposite axis too."""
 _NEAR = 0.02
 """Mean distance, as a share of the part's size, up to which the turned part nearly is the same."""
 _EXACT = 0.004
@@ -49,8 +51,9 @@ class Symmetry:
         for pose in self.motions[self.exact]:
             turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
             size = np.linalg.norm(turn)
-            axis = np.round(turn / size, 2) + 0.0
-            phrases.append("{:.0f}° about ({:.2f}, {:.2f}, {:.2f})".format(np.degrees(size), *axis))
+            half = abs(np.pi - size) < _HALF
+            axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
+            phrases.append(f"{np.degrees(size):.0f}° about {axis_name(axis)}")
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
 
 
