@@ -2010,8 +2010,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0}: {1}</translation>
     </message>
     <message>
-      <source>{0}° about ({1}, {2}, {3})</source>
-      <translation>{0}° um ({1}, {2}, {3})</translation>
+      <source>{0}° about {1}</source>
+      <translation>{0}° um {1}</translation>
     </message>
   </context>
   <context>
