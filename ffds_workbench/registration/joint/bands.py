@@ -17,7 +17,7 @@ that the shape strays as Student's t with two degrees of freedom does."""
 _LEAK, _LEAK_ZONE = 0.08, 2.0
 """Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
 reaches into the face."""
-_EDGE_MISFIT = 0.035
+_EDGE_MISFIT = 0.045
 """Standard deviation in mm of the place of an edge beyond what its faces' covariance tells."""
 
 

@@ -22,6 +22,8 @@ _CONTROLS = 1000.0
 """Parts with more control points than this have more of them."""
 _LEAST = Trust(isometry=1e-3, thickness=1e-2, shear=1e-3, dihedral=1e-3)
 """A sheet bends, stretches and even shears far more easily than it changes its thickness."""
+_LEAST_MASSIVE = 0.1
+"""The same of the thickness of massive parts: nothing but their other side tells where an unseen one is."""
 _OFF = 1e-6
 _ISOMETRIC = 0.1
 """A part counts as isometric while its isometry is trusted by more than this."""
@@ -34,8 +36,9 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
     trust, mode = Trust(), problem.settings.isometry
     if stage.soft:
         cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
+        least = _LEAST if problem.skin.any() else replace(_LEAST, thickness=_LEAST_MASSIVE)
         trust = Trust(**{name: float(np.clip(number * getattr(_EXPECTED, name) / max(getattr(cost, name), 1e-12),
-                                             getattr(_LEAST, name), 1.0)) for name in vars(trust)})
+                                             getattr(least, name), 1.0)) for name in vars(trust)})
     if mode != "auto":
         trust = replace(trust, isometry=1.0 if mode == "on" else _OFF)
     return replace(state, trust=trust)
