@@ -134,7 +134,7 @@ def _trials(progress: Callable[[str], None]) -> list[Trial]:
 def _best_pose(case: Case) -> Array:
     """The pose that fits the deformed truth best, whose points are denser on small faces than on large ones."""
     truth = case.truth
-    area = np.array([cells.area.sum() for cells in case.target.cells])
+    area = np.array([face.Area for face in case.part.shape.Faces])
     count = np.bincount(truth.face, minlength=len(area))
     return best_fit(truth.warped, truth.nominal, (area / np.maximum(count, 1))[truth.face])
 
