@@ -68,7 +68,8 @@ def facing(problem: Problem, reach: float) -> list[Array | None]:
     near = cKDTree(place).query(problem.sample, distance_upper_bound=reach, workers=-1)[0]
     if np.isfinite(near).sum() < _FEWEST:
         return [None]
-    sketch = sketch_of(problem.sample[np.isfinite(near)], np.random.default_rng(problem.settings.seed), _POINTS, finer=1)
+    generator = np.random.default_rng(problem.settings.seed)
+    sketch = sketch_of(problem.sample[np.isfinite(near)], generator, _POINTS, finer=1)
     distance, near = cKDTree(sketch.points).query(problem.sample, workers=-1)
     known = (distance < _NEAR * np.median(distance))[:, None]
     sides = [_one_sign_each(sketch, signs[sketch.piece]) for signs in _signs(place, normal, sketch, 2 * reach)]
