@@ -87,7 +87,9 @@ class Result:
 
     def table(self) -> str:
         """Deviation and topology, before and after, as text."""
-        return table.deviation_table(self.report) + "\n\n" + table.topology_table(self.report["topology"])
+        parts = (table.deviation_table(self.report), table.topology_table(self.report["topology"]),
+                 table.doubts(self.report))
+        return "\n\n".join(part for part in parts if part)
 
 
 def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, faces: Sequence[str] | None = None,

@@ -28,6 +28,15 @@ def _row(name: str, points: str, figures: Sequence[str]) -> str:
     return f"{name:<16}{points:>9}" + "".join(f"{figure:>14}" for figure in figures)
 
 
+def doubts(report: Mapping[str, Any]) -> str:
+    """What a registration could not tell, as a sentence; empty if there is nothing."""
+    unsure = report["sheet"]["unsure"]
+    if not unsure:
+        return ""
+    return (f"The scan may show the other skin of the sheet: everything may be off by its thickness, {unsure:.2f} mm. "
+            f"Scan some of its border as well.")
+
+
 def topology_table(topology: Mapping[str, Any]) -> str:
     """Counts before and after, and what the certificate says."""
     before, after = topology["before"], topology["after"]

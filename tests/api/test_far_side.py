@@ -41,3 +41,12 @@ def test_the_skin_that_is_seen_may_bend_through_the_sheet(plate, sag):
     result = api.register(plate, scan_of_top(sag), faces=[top], method="robust")
     middle = FreeCAD.Vector(LENGTH / 2, WIDTH / 2, THICKNESS - sag)
     assert result.shape.Faces[int(top[4:]) - 1].distToShape(Part.Vertex(middle))[0] < NOISE / 2
+
+
+def test_a_scan_that_may_show_either_skin_is_said_so(plate):
+    """One skin alone, 1.3 mm inwards of the top and 1.7 mm of the bottom, if it were that: the nearer one is taken."""
+    scan = scan_of_top(0.0) - [0.0, 0.0, 1.3]
+    result = api.register(plate, scan)
+    assert result.report["sheet"]["unsure"] == pytest.approx(THICKNESS, abs=NOISE)
+    assert "other skin" in result.table()
+    assert next(face["band"] for face in result.report["faces"] if face["name"] == face_at(plate, THICKNESS)) > 0.5
