@@ -12,6 +12,7 @@ import numpy as np
 from ..api.registering import ISOMETRY, METHODS
 from ..api.tuning import STIFFEST
 from ..errors import InputError
+from ..report.table import doubts
 from .feature import HIDDEN, READ_ONLY, Feature, Property
 from .job import Job, Settings, make_job
 from .lattices import Lattice, draw_lattices
@@ -77,6 +78,8 @@ class AsBuilt(Feature):
         for name, block, figure in _FIGURES:
             setattr(obj, name, result.report[block][figure])
         obj.Report = json.dumps(result.report)
+        if doubt := doubts(result.report):
+            FreeCAD.Console.PrintWarning(f"{obj.Label}: {doubt}\n")
         obj.Signatures = signatures(job.source.model.shape, (*(job.settings.faces or ()), *job.settings.freeze))
         lattices = draw_lattices(job.source.model.shape, result.registrations)
         obj.LatticeSizes = [count for item in lattices for count in item.nominal.shape[:2]]
