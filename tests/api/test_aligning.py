@@ -17,3 +17,14 @@ def test_one_sided_scan_of_a_plain_plate_says_which_poses_and_what_to_do():
     assert any(np.abs(pose.T_model_scan - np.eye(4)).max() < 0.1 for pose in aligned.alignment.poses)
     for words in ("turned by 180° about x", "turned by 180° about y", "turned by 180° about z", "mode fine"):
         assert words in text
+
+
+def test_a_fine_alignment_stays_on_the_side_that_is_nearer():
+    """One skin of a plate of 3 mm fits the other as well; the scan lies 0.8 mm from its own."""
+    generator = np.random.default_rng(2)
+    x, y = generator.uniform((0, 0), (80, 50), (20_000, 2)).T
+    scan = np.stack([x, y, 2.2 + generator.normal(0, 0.05, len(x))], axis=1)
+    found = api.align_scan(Part.makeBox(80, 50, 3), scan, mode="fine").alignment
+    assert found.verdict == "ambiguous"
+    # the noise of 0.05 mm over thousands of points, and a plate that may turn by a few of them over its width
+    np.testing.assert_allclose(found.T_model_scan[2], [0, 0, 1, 0.8], atol=0.01)

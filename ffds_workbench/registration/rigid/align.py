@@ -74,10 +74,10 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
         best = nearest_of(verified, sketch.points.mean(axis=0))
     else:
         verified = _search(target, sketch, table, starts_of(target, sketch, mode), THOROUGH, generator)
-        best = best_of(verified, mode)
+        best = best_of(verified, mode, target, sketch)
         if best.evidence.certainty < _CERTAIN:
             verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL, generator)
-            best = best_of(verified, mode)
+            best = best_of(verified, mode, target, sketch)
     pose = polish(target, sketch, best.pose, best.normals, best.evidence.coverage)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
     after = examine(target, sketch, pose, turned_on(best, pose), table)

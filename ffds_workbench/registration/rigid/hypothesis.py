@@ -23,6 +23,9 @@ MARGIN = 0.06
 """Poses whose scores differ by less than this share of what is left unexplained fit alike."""
 SAME_TURN, SAME_SHIFT = 0.07, 0.03
 """Poses closer than this (rad, share of the part's size) are one."""
+_SAME_PLACE = 0.005
+"""Share of the part's size by which one of two poses has to be nearer to count as the nearer one: less than a sheet is
+thick."""
 
 
 @dataclass(frozen=True)
@@ -81,12 +84,15 @@ def turned_on(found: Verified, pose: Array) -> Array:
     return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
 
 
-def best_of(verified: Sequence[Verified], mode: str) -> Verified:
-    """The pose that scores best; a fine alignment takes the one that turns least among those that fit alike."""
+def best_of(verified: Sequence[Verified], mode: str, target: Target, sketch: Sketch) -> Verified:
+    """The pose that scores best; of those that fit alike, a fine alignment takes the one that turns and moves least."""
     good = alike(verified)
     if mode != "global":
-        nearest = min(float(angle(v.pose, np.eye(4))) for v in good)
-        good = [v for v in good if angle(v.pose, np.eye(4)) < nearest + SAME_TURN]
+        turned = [float(angle(v.pose, np.eye(4))) for v in good]
+        good = [v for v, turn in zip(good, turned, strict=True) if turn < min(turned) + SAME_TURN]
+        place = sketch.points.mean(axis=0)
+        moved = [float(shift(v.pose, np.eye(4), place)) for v in good]
+        good = [v for v, move in zip(good, moved, strict=True) if move < min(moved) + _SAME_PLACE * target.size]
     return max(good, key=lambda v: v.evidence.score)
 
 

@@ -41,6 +41,6 @@ def quickly(target: Target, scan: Array, scale: float, generator: np.random.Gene
             clear.append(Verified(pose, evidence, normals))
     if not clear:
         return None
-    best = best_of(clear, "fine")
+    best = best_of(clear, "fine", target, sketch)
     pose = polish(target, sketch, best.pose, best.normals, best.evidence.coverage)
     return answer_of(target, sketch, None, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
