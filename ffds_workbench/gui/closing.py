@@ -11,16 +11,26 @@ from .qt import QtCore
 
 
 class WithDocument:
-    """Calls ``close`` when the document of that name was closed, until it is released."""
+    """Ends a panel when the document of that name is closed, until it is released.
 
-    def __init__(self, name: str, close: Callable[[], Any]) -> None:
-        self._name, self._close = name, close
+    Parameters
+    ----------
+    name : of the document
+    stop : called at once: from then on nothing may touch the document
+    close : called when FreeCAD is done with the document; not before that may the panel close
+    """
+
+    def __init__(self, name: str, stop: Callable[[], Any], close: Callable[[], Any]) -> None:
+        self._name, self._stop, self._close = name, stop, close
+        self.gone = False
         FreeCAD.addDocumentObserver(self)
 
     def slotDeletedDocument(self, document: Any) -> None:  # noqa: N802
-        """FreeCAD tells of a document that goes; the panel may only close when FreeCAD is done with it."""
+        """FreeCAD tells of a document that goes."""
         if document.Name == self._name:
+            self.gone = True
             QtCore.QTimer.singleShot(0, self._close)
+            self._stop()
 
     def release(self) -> None:
         """Stop watching."""

@@ -55,7 +55,7 @@ class DeformationPanel:
         self.form.changed.connect(self._preview)
         Gui.Selection.addObserver(self)
         self._watching = True
-        self._with_document = WithDocument(document.Name, self._close)
+        self._with_document = WithDocument(document.Name, self._stop, self._close)
         QtCore.QTimer.singleShot(0, self._preview)
 
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
@@ -144,7 +144,7 @@ class DeformationPanel:
 
     def _preview(self) -> None:
         """Preview what is set now."""
-        if not self._watching or self.form.busy:
+        if not self._watching or self._with_document.gone or self.form.busy:
             return
         try:
             job = self._job()
@@ -241,11 +241,15 @@ class DeformationPanel:
         try:
             Gui.Selection.removeObserver(self)
             self._with_document.release()
-            self._runner.stop()
-            if self._worker is not None:
-                self._worker.cancel()
+            self._stop()
         finally:
             self._overlay.remove()
+
+    def _stop(self) -> None:
+        """Drop what is being computed."""
+        self._runner.stop()
+        if self._worker is not None:
+            self._worker.cancel()
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""

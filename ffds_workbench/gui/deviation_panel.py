@@ -79,7 +79,7 @@ class DeviationPanel:
         self._view = Gui.getDocument(self._document).ActiveView
         self._overlay = Overlay(self._document)
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
-        self._with_document = WithDocument(self._document, self._close)
+        self._with_document = WithDocument(self._document, lambda: None, self._close)
         self.form.destroyed.connect(self._let_go)
         self._show()
 

@@ -59,7 +59,7 @@ class PointPairsPanel:
         Gui.Selection.clearSelection()
         Gui.Selection.addObserver(self)
         self._watching = True
-        self._with_document = WithDocument(scan.Document.Name, self._close)
+        self._with_document = WithDocument(scan.Document.Name, self._stop, self._close)
         self._show()
 
     def addSelection(self, document: str, name: str, element: str, place: Point) -> None:  # noqa: N802
@@ -173,12 +173,16 @@ class PointPairsPanel:
         try:
             Gui.Selection.removeObserver(self)
             self._with_document.release()
-            if self._worker is not None:
-                self._worker.cancel()
+            self._stop()
         finally:
             self._overlay.remove()
             Gui.Selection.clearSelection()
         QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
+
+    def _stop(self) -> None:
+        """Drop what is being computed."""
+        if self._worker is not None:
+            self._worker.cancel()
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""

@@ -1522,6 +1522,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan hat {0} Punkte: Um einen Sensor zu vermessen, braucht es mindestens {1}.</translation>
     </message>
     <message>
+      <source>The scan may show the other skin of the sheet: everything may be off by its thickness, {0} mm. Scan some of its border as well.</source>
+      <translation>Der Scan kann die andere Seite des Blechs zeigen: Alles kann um dessen Dicke, {0} mm, daneben liegen. Scannen Sie auch etwas von seinem Rand.</translation>
+    </message>
+    <message>
       <source>The scan measures {0} mm and the model {1} mm: the scan seems to be in {2}, not in {3} (use --scan-unit {4}).</source>
       <translation>Der Scan misst {0} mm und das Modell {1} mm: Der Scan ist wohl in {2}, nicht in {3} (--scan-unit {4}).</translation>
     </message>
