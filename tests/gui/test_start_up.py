@@ -9,8 +9,9 @@ import subprocess
 
 from ffds_workbench import ROOT
 
-MOST, NOISE, ROUNDS = 0.05, 0.05, 3
-"""Seconds that it may add, and by which starts differ on a busy machine; starts of each kind, the fastest counts."""
+MOST, NOISE, ROUNDS, MORE = 0.05, 0.05, 3, 9
+"""Seconds that it may add, and by which the fastest starts differ on a busy machine; starts of each kind, and most of
+them where so many did not meet a quiet moment each."""
 
 
 def start(home) -> float:
@@ -31,10 +32,11 @@ def test_the_start_of_freecad_is_hardly_longer(tmp_path):
         (tmp_path / name / "Mod").mkdir(parents=True)
         shutil.copy(ROOT / "tests" / "gui" / "user.cfg", tmp_path / name)
     (tmp_path / "with" / "Mod" / "FFDS").symlink_to(ROOT)
-    for _ in range(ROUNDS):
+    added = float("inf")
+    while len(times["with"]) < (ROUNDS if added < MOST else MORE):
         for name, found in times.items():
             found.append(start(tmp_path / name))
-    added = min(times["with"]) - min(times["without"])
+        added = min(times["with"]) - min(times["without"])
     print(f"\nstart of FreeCAD: {min(times['without']):.2f} s of the processor, the workbench adds "
           f"{1000 * added:.0f} ms")
     assert added < MOST + NOISE
