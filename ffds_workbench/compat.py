@@ -78,7 +78,7 @@ def face_colours(provider: Element, archive: zipfile.ZipFile) -> tuple[Colour, .
     materials with their textures behind it.
     """
     for name, kind, unpack in (("ShapeAppearance", "MaterialList", _of_materials),
-                               ("DiffuseColor", "ColorList", _packed)):
+                               ("DiffuseColor", "ColorList", _of_packed)):
         holder = provider.find(f".//Property[@name='{name}']/{kind}")
         file = "" if holder is None else holder.get("file", "")
         if file in archive.namelist():
@@ -86,7 +86,7 @@ def face_colours(provider: Element, archive: zipfile.ZipFile) -> tuple[Colour, .
     return ()
 
 
-def _packed(content: bytes) -> tuple[Colour, ...]:
+def _of_packed(content: bytes) -> tuple[Colour, ...]:
     count = _count(content)
     if not count or len(content) != 4 + 4 * count:
         return ()

@@ -2,8 +2,9 @@
 """How the displacements of a part are found: each face by itself, or all faces together."""
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from ..brep.closing import closing_displacements
 from ..brep.displacement import FaceDisplacement
@@ -79,12 +80,15 @@ def _register_faces(part: Workpiece, cloud: PointCloud, wanted: Sequence[int] | 
         indices = [index for index in observed_faces(geometries, cloud.points) if index not in frozen]
     else:
         indices = list(wanted)
+    whole = cache(lambda: _whole(part, cloud, tuning))
     registrations: dict[int, FaceRegistration] = {}
     refusals: list[RefusedError] = []
     for count, index in enumerate(indices, 1):
         watch.tell(f"Registering {part.faces[index].name} ({count} of {len(indices)})")
         try:
-            registrations[index] = _register_face(part, index, cloud, method, lattice, source_points, tuning)
+            found = _register_face(part, index, cloud, method, lattice, source_points, tuning)
+            _refuse_far_side(part, index, found, whole)
+            registrations[index] = found
         except RefusedError as refusal:
             if wanted is not None:
                 raise
@@ -107,25 +111,30 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
         found = register_ffd(face, cloud.points, size or _HSU_LATTICE, source_points)
     else:
         found = register_robust(face, cloud.points, size, tuning.robust())
-    _refuse_far_side(part, index, found, cloud, tuning)
     return found
 
 
-def _refuse_far_side(part: Workpiece, index: int, found: FaceRegistration, cloud: PointCloud, tuning: Tuning) -> None:
+def _whole(part: Workpiece, cloud: PointCloud, tuning: Tuning) -> JointRegistration | None:
+    """All faces together, or None where that gives no answer."""
+    try:
+        return register_joint(joint_part(part, ()), cloud.points, tuning.joint())
+    except RefusedError:
+        return None
+
+
+def _refuse_far_side(part: Workpiece, index: int, found: FaceRegistration,
+                     whole: Callable[[], JointRegistration | None]) -> None:
     """Refuse a face that was deformed onto the far side of its sheet, if that is what the scan as a whole shows.
 
     Where it does not tell, the word of the user who named the face counts.
     """
-    other, nearer = far_side(part.geometry(index), found, [part.geometry(i) for i in range(len(part.faces))])
-    if nearer < _SUSPECT:
-        return
-    try:
-        whole = register_joint(joint_part(part, ()), cloud.points, tuning.joint())
-    except RefusedError:
+    other, nearer = far_side(part.geometry(index), found, (face.geometry for face in part.faces))
+    together = whole() if nearer >= _SUSPECT else None
+    if together is None or together.unsure:
         return
     name = part.faces[index].name
-    seen = {face.name: face.coverage for face in whole.faces if face.points}
+    seen = {face.name: face.coverage for face in together.faces if face.points}
     tells = len(seen) > 1 or nearer > _CERTAIN
-    if tells and not whole.unsure and seen.get(name, 0.0) < seen.get(other, 0.0):
+    if tells and seen.get(name, 0.0) < seen.get(other, 0.0):
         raise RefusedError(f"The scan shows {other}, on the other side, and not {name}: name {other} instead, or "
                            f"register all faces together, which carries {name} along.")

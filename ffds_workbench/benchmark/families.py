@@ -11,7 +11,6 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 

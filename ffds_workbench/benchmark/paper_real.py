@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 from scipy.spatial import cKDTree

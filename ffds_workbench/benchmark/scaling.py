@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import FreeCAD  # noqa: F401  (Part needs it first)
+import FreeCAD
 import numpy as np
 import Part
 from scipy.spatial import cKDTree

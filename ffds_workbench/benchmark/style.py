@@ -5,10 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
-
-from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.figure import Figure
 
 COLOURS = {"ffds": "#0072b2", "ffd_hsu": "#d55e00", "robust": "#009e73"}
 MARKERS = {"ffds": "o", "ffd_hsu": "s", "robust": "D"}

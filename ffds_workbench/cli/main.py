@@ -72,7 +72,7 @@ def _run(options: argparse.Namespace, out: TextIO, err: TextIO, progress: Progre
     except MemoryError:
         progress.clear()
         return _fail(err, RefusedError("There is not enough memory for this job."))
-    except Exception as error:  # noqa: BLE001 (the user gets one line; developers set FFDS_DEBUG)
+    except Exception as error:  # the user gets one line; developers set FFDS_DEBUG
         progress.clear()
         if os.environ.get(DEBUG):
             traceback.print_exc(file=err)

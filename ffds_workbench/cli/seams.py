@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,7 +81,7 @@ def _add_carry(commands: argparse._SubParsersAction) -> None:
     command.set_defaults(run=carry)
 
 
-def _numbers(count: int):  # type: ignore[no-untyped-def]
+def _numbers(count: int) -> Callable[[str], tuple[float, ...]]:
     def read(text: str) -> tuple[float, ...]:
         try:
             values = tuple(float(part) for part in text.split(","))

@@ -25,7 +25,7 @@ class WithDocument:
         self.gone = False
         FreeCAD.addDocumentObserver(self)
 
-    def slotDeletedDocument(self, document: Any) -> None:  # noqa: N802
+    def slotDeletedDocument(self, document: Any) -> None:
         """FreeCAD tells of a document that goes."""
         if document.Name == self._name:
             self.gone = True

@@ -110,7 +110,7 @@ class DeformationPanel:
     def _show_picked(self) -> None:
         self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
 
-    def addSelection(self, *_: Any) -> None:  # noqa: N802
+    def addSelection(self, *_: Any) -> None:
         """Something was picked in the view or in the tree: read the selection once FreeCAD is done with it."""
         self._adding = bool(QtWidgets.QApplication.keyboardModifiers() & QtCore.Qt.ControlModifier)
         QtCore.QTimer.singleShot(0, self._selection_changed)
@@ -251,7 +251,7 @@ class DeformationPanel:
         if self._worker is not None:
             self._worker.cancel()
 
-    def getStandardButtons(self) -> int:  # noqa: N802
+    def getStandardButtons(self) -> int:
         """OK and Cancel."""
         return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 

@@ -141,7 +141,7 @@ class DeviationPanel:
             self._view.removeEventCallback("SoLocation2Event", callback)
         self._overlay.remove()
 
-    def getStandardButtons(self) -> int:  # noqa: N802
+    def getStandardButtons(self) -> int:
         """Close."""
         return number_of(QtWidgets.QDialogButtonBox.Close)
 

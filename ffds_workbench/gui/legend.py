@@ -26,7 +26,7 @@ class Legend(QtWidgets.QWidget):
         self._counts = np.zeros(_BINS)
         self._limit, self._tolerance = 1.0, 0.0
 
-    def sizeHint(self) -> Any:  # noqa: N802
+    def sizeHint(self) -> Any:
         """As Qt asks."""
         return QtCore.QSize(260, 130)
 
@@ -36,7 +36,7 @@ class Legend(QtWidgets.QWidget):
         self._limit, self._tolerance = limit, tolerance
         self.update()
 
-    def paintEvent(self, event: Any) -> None:  # noqa: N802
+    def paintEvent(self, event: Any) -> None:
         """As Qt asks."""
         painter = QtGui.QPainter(self)
         width, height = self.width() - 2 * _MARGIN, self.height() - _BAR - _TEXT - 6

@@ -62,7 +62,7 @@ class PointPairsPanel:
         self._with_document = WithDocument(scan.Document.Name, self._stop, self._close)
         self._show()
 
-    def addSelection(self, document: str, name: str, element: str, place: Point) -> None:  # noqa: N802
+    def addSelection(self, document: str, name: str, element: str, place: Point) -> None:
         """A point was picked in the view: it belongs to the scan or to the part, whichever was hit."""
         # Picks in the tree come without a place; a second pick on a selected object would not be told.
         QtCore.QTimer.singleShot(0, lambda: self._picked_at(document, name, tuple(place)))
@@ -184,7 +184,7 @@ class PointPairsPanel:
         if self._worker is not None:
             self._worker.cancel()
 
-    def getStandardButtons(self) -> int:  # noqa: N802
+    def getStandardButtons(self) -> int:
         """OK and Cancel."""
         return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 

@@ -48,12 +48,12 @@ class SeamsView(Stateless):
         vobj.RootNode.addChild(self._switch)
         self._draw(vobj)
 
-    def onChanged(self, vobj: Any, name: str) -> None:  # noqa: N802
+    def onChanged(self, vobj: Any, name: str) -> None:
         """A property of the view changed."""
         if name in ("ColourBy", "ShowLegend", "Visibility") and hasattr(self, "_switch"):
             self._draw(vobj)
 
-    def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
+    def updateData(self, obj: Any, name: str) -> None:
         """A property of the object changed; the table is the last one that a recompute writes."""
         if name == "Table" and hasattr(self, "_switch"):
             self._draw(obj.ViewObject)
@@ -70,10 +70,10 @@ class SeamsView(Stateless):
             self._lines.addChild(node)
         self._switch.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
-    def getIcon(self) -> str:  # noqa: N802
+    def getIcon(self) -> str:
         """The icon in the tree."""
         return str(RESOURCES / "icons" / "FFDS_FindSeams.svg")
 
-    def claimChildren(self) -> list:  # noqa: N802
+    def claimChildren(self) -> list:
         """The part stays where it is in the tree."""
         return []

@@ -51,12 +51,12 @@ class AsBuiltView(Stateless):
         vobj.RootNode.addChild(self._switch)
         self._draw(vobj)
 
-    def onChanged(self, vobj: Any, name: str) -> None:  # noqa: N802
+    def onChanged(self, vobj: Any, name: str) -> None:
         """A property of the view changed."""
         if name in ("ShowLattice", "Visibility") and hasattr(self, "_switch"):
             self._draw(vobj)
 
-    def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
+    def updateData(self, obj: Any, name: str) -> None:
         """A property of the object changed; the lattice after is the last one that a recompute writes."""
         if name == "LatticeAsBuilt" and hasattr(self, "_switch"):
             self._draw(obj.ViewObject)
@@ -74,15 +74,15 @@ class AsBuiltView(Stateless):
             group.addChild(node)
         self._switch.whichChild = coin.SO_SWITCH_ALL if shown else coin.SO_SWITCH_NONE
 
-    def getIcon(self) -> str:  # noqa: N802
+    def getIcon(self) -> str:
         """The icon in the tree."""
         return str(RESOURCES / "icons" / "ffds.svg")
 
-    def claimChildren(self) -> list:  # noqa: N802
+    def claimChildren(self) -> list:
         """Nothing moves below it in the tree: nominal part and scan stay where they are."""
         return []
 
-    def doubleClicked(self, vobj: Any) -> bool:  # noqa: N802
+    def doubleClicked(self, vobj: Any) -> bool:
         """Open the panel with its settings."""
         from .deformation_panel import open_panel
 

@@ -43,6 +43,6 @@ class Feature(Stateless):
                 if item.value is not None:
                     setattr(obj, item.name, item.value)
 
-    def onDocumentRestored(self, obj: Any) -> None:  # noqa: N802
+    def onDocumentRestored(self, obj: Any) -> None:
         """A document was opened: bring its object up to this version."""
         self.ensure_properties(obj)

@@ -22,7 +22,7 @@ def dress_with(module: str) -> None:
 class _Opened:
     """Watches documents coming to the front; FreeCAD tells nobody in Python that one was opened."""
 
-    def slotActivateDocument(self, document: object) -> None:  # noqa: N802
+    def slotActivateDocument(self, document: object) -> None:
         """A document comes to the front, a new one as well: dress its objects that have no view yet."""
         for item in document.Objects:
             proxy = getattr(item, "Proxy", None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-import FreeCAD  # noqa: F401  (Part needs it first)
+import FreeCAD
 import numpy as np
 import Part
 import pytest

@@ -2,7 +2,6 @@
 """``./ffds simulate`` and ``register --method ffd-hsu`` from the command line."""
 from __future__ import annotations
 
-import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 import pytest

@@ -2,7 +2,6 @@
 """The virtual sensor against closed forms. Statistical tolerances are about four standard errors of the sample."""
 from __future__ import annotations
 
-import FreeCAD  # noqa: F401  (Part needs it first)
 import numpy as np
 import Part
 import pytest

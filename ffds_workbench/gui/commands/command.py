@@ -17,16 +17,16 @@ class Command:
 
     NAME = MENU = TIP = HELP = KEYS = ""
 
-    def GetResources(self) -> dict[str, str]:  # noqa: N802
+    def GetResources(self) -> dict[str, str]:
         """What FreeCAD shows of the command."""
         return {"MenuText": self.MENU, "ToolTip": self.TIP, "Accel": self.KEYS, "WhatsThis": self.HELP,
                 "StatusTip": self.TIP, "Pixmap": str(RESOURCES / "icons" / f"{self.NAME}.svg")}
 
-    def IsActive(self) -> bool:  # noqa: N802
+    def IsActive(self) -> bool:
         """Whether the command can be used now; asked often."""
         return not Gui.Control.activeDialog() and self.active()
 
-    def Activated(self, index: int = 0) -> None:  # noqa: N802
+    def Activated(self, index: int = 0) -> None:
         """The user chose the command."""
         with telling():
             self.run()

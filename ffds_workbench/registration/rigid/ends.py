@@ -8,7 +8,7 @@ import numpy as np
 
 from ..splines import Array
 from .motions import apply
-from .rims import Rims
+from .rims import Rims, clear
 
 _STRIP = 3.0
 """Depth of the strip inside a rim that is looked at, in widths: the density is counted beyond the first width."""
@@ -45,7 +45,7 @@ class Ends:
         return replace(self, gap=self.gap + more)
 
 
-def find_ends(rims: Rims, points: Array, width: float, tolerance: float, normals: Array | None = None) -> Ends:
+def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends:
     """Count the points near the rims: as many as the strip inside lets expect lie on a face that ends at its rim.
 
     Of a scan of density λ per mm of depth, n = λ (width + gap) points lie within the width of the rim or beyond it,
@@ -56,7 +56,6 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float, normals
     points : (n, 3) in model coordinates, of even density on each side of a rim
     width : in mm; ends farther than this from the rim are not recognised
     tolerance : in mm, height up to which a point is on a face
-    normals : (n, 3) outward, where they are known
     """
     if not len(rims.points):
         return _nothing()
@@ -64,11 +63,8 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float, normals
     nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth)[1]
     row = np.flatnonzero(nearest < len(rims.points))
     entry, row = np.concatenate([nearest[row], rims.partner[nearest[row]]]), np.concatenate([row, row])
-    chosen = rims.clear(depth)[entry]
+    chosen = clear(rims, depth)[entry]
     chosen[len(row) // 2:] &= entry[len(row) // 2:] != entry[: len(row) // 2]
-    if normals is not None:
-        # the far side of a sheet is neither on the face nor beside it
-        chosen &= np.einsum("ni,ni->n", normals[row], rims.normals[entry]) > -0.5
     row, entry = row[chosen], entry[chosen]
     offset = points[row] - rims.points[entry]
     beyond = np.einsum("ni,ni->n", offset, rims.outwards[entry])

@@ -81,6 +81,14 @@ def axis_name(axis: Array) -> str:
     return "({:.2f}, {:.2f}, {:.2f})".format(*np.round(axis, 2) + 0.0)
 
 
+def turn_name(turn: Array, near: float) -> str:
+    """A rotation vector (3,) in rad, not zero, in words; within ``near`` of a half turn the axis has no sign."""
+    size = float(np.linalg.norm(turn))
+    half = np.pi - size < near       # a half turn about an axis is one about its opposite too
+    axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
+    return f"{np.degrees(size):.0f}° about {axis_name(axis)}"
+
+
 def difference(first: Array, second: Array, place: Array) -> str:
     """How the second pose (4, 4) differs from the first, in words.
 
@@ -90,11 +98,8 @@ def difference(first: Array, second: Array, place: Array) -> str:
     """
     between = second @ np.linalg.inv(first)
     turn = Rotation.from_matrix(between[:3, :3]).as_rotvec()
-    size = float(np.linalg.norm(turn))
-    if size > _TURNED:
-        half = np.pi - size < _TURNED       # a half turn about an axis is one about its opposite too
-        axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
-        return f"turned by {np.degrees(size):.0f}° about {axis_name(axis)}"
+    if np.linalg.norm(turn) > _TURNED:
+        return "turned by " + turn_name(turn, _TURNED)
     way = apply(between, place[None])[0] - place
     length = float(np.linalg.norm(way))
     return f"moved by {length:.2g} mm along {axis_name(way / max(length, 1e-12))}"

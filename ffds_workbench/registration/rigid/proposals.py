@@ -40,13 +40,13 @@ class Stage:
 
 
 THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
-             Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
+            Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
 QUICK = (Stage(100, 0.30, 0.07, 8, 0.04, 8, 0.1), Stage(400, 0.07, 0.02, 6, 0.015, 1, 0.05))
 LOCAL = (Stage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), Stage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
 
 
 def propose(target: Target, sketch: Sketch, starts: Array, stages: Sequence[Stage],
-             generator: np.random.Generator) -> Candidates:
+            generator: np.random.Generator) -> Candidates:
     """The most promising poses, best first."""
     share = np.bincount(sketch.piece) / len(sketch.piece)
     sided = not is_rough(target, sketch)

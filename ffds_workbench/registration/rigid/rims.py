@@ -97,11 +97,6 @@ class Rims:
         x, y, z = self._voxel(points).T
         return np.flatnonzero(self._beside[x, y, z])
 
-    @lru_cache(maxsize=8)  # noqa: B019
-    def clear(self, depth: float) -> NDArray[np.bool_]:
-        """At which points no other rim is nearer to what lies ``depth`` mm inside the face; (n,)."""
-        return self.tree.query(self.points - depth * self.outwards)[0] > 0.9 * depth
-
     def overshoot(self, points: Array, face: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
         """How far points stick out of the face they are matched with, beyond its rim.
 
@@ -124,6 +119,12 @@ class Rims:
         outwards = self.outwards[index]
         beyond = np.einsum("ni,ni->n", points - self.points[index], outwards)
         return np.where(near & (self.face[index] == face), np.maximum(beyond, 0.0), 0.0), outwards
+
+
+@lru_cache(maxsize=8)
+def clear(rims: Rims, depth: float) -> NDArray[np.bool_]:
+    """At which points of the rims no other one is nearer to what lies ``depth`` mm inside the face; (n,)."""
+    return np.asarray(rims.tree.query(rims.points - depth * rims.outwards)[0] > 0.9 * depth)
 
 
 def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacing: float) -> Rims:

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from ..splines import Array
 from .fine import refine
-from .motions import angle, apply, axis_name, even_rotations, motion
+from .motions import angle, apply, even_rotations, motion, turn_name
 from .target import Target
 
 _EQUAL_MOMENTS = 0.04
@@ -47,13 +47,8 @@ class Symmetry:
         """One phrase for the user, empty if there is no symmetry."""
         if self.axis is not None:
             return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*np.round(self.axis, 2) + 0.0)
-        phrases = []
-        for pose in self.motions[self.exact]:
-            turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
-            size = np.linalg.norm(turn)
-            half = abs(np.pi - size) < _HALF
-            axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
-            phrases.append(f"{np.degrees(size):.0f}° about {axis_name(axis)}")
+        phrases = [turn_name(Rotation.from_matrix(pose[:3, :3]).as_rotvec(), _HALF)
+                   for pose in self.motions[self.exact]]
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
 
 

@@ -28,7 +28,7 @@ _REACH = 0.02
 
 
 def answer_of(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
-            scale: float) -> Alignment:
+              scale: float) -> Alignment:
     """The verdict: is the best pose good enough, and does another one fit as well?"""
     evidence = best.evidence
     symmetry = symmetry_of(target)
