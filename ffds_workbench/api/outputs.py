@@ -26,7 +26,8 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
           inputs: Sequence[str | Path] = ()) -> None:
     """Write an as-built model (.step, .brep or .FCStd), and after it its report and picture: both of these or none.
 
-    The report waits for the check for Boolean operations, the model does not.
+    The model waits for nothing; the deviation is measured after it, and the report waits for the check for Boolean
+    operations.
 
     Raises
     ------
@@ -40,9 +41,9 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if picture is not None:
-            panels = [drawing.Panel("Nominal", _all(result.before), _edges(result.nominal.shape)),
-                      drawing.Panel("As built", _all(result.after), _edges(result.shape))]
-            _draw(target[2], result.nominal, result.scan, result.before, panels)
+            panels = [drawing.Panel("Nominal", _all(result.deviations[0]), _edges(result.nominal.shape)),
+                      drawing.Panel("As built", _all(result.deviations[1]), _edges(result.shape))]
+            _draw(target[2], result.nominal, result.scan, result.deviations[0], panels)
         if report is not None:
             record.write(result.report, target[1])
 

@@ -2,7 +2,7 @@
 """The job ``register``: from a nominal model and a scan to the as-built model, its certificate and its report."""
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -34,39 +34,56 @@ METHODS = ("robust", "ffds", "ffd-hsu")
 ISOMETRY = ("auto", "on", "off")
 
 BOOLEAN_CHECK_SECONDS = 10.0
-"""How long the check for Boolean operations, which runs beside the other work, may take before the certificate goes
-without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
+"""How long the check of a shape for Boolean operations, which runs beside the other work, may take before the
+certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
 SURFACE_TOLERANCE = 1e-5
 """Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """An as-built model and how it came about.
+    """An as-built model and how it came about. The deviations are measured when they are first asked for.
 
     Attributes
     ----------
     model : the as-built shape with the nominal's name and colours
     nominal : what it was made from
+    part : its faces
     scan : what it was made to fit
-    registrations : one per face that the scan deformed
-    joint : the registration of the whole part, where all faces were registered together
-    before, after : deviations of the same scan points from the nominal and from the as-built faces
+    sensor : the sensor's profile, if one was given
+    found : the displacements, and where they come from
     topology : the certificate before the check for Boolean operations has ended
     checks : that of the nominal and of the as-built shape
-    figures : the JSON report but for the topology
+    watch : how long what took
+    alignment : the report of the alignment that went before, if one did
     """
 
     model: Model
     nominal: Model
+    part: Workpiece
     scan: PointCloud
-    registrations: tuple[FaceRegistration | JointFace, ...]
-    before: tuple[FaceDeviation, ...]
-    after: tuple[FaceDeviation, ...]
+    sensor: SensorProfile | None
+    found: Deformation
     topology: Certificate
     checks: BooleanChecks
-    joint: JointRegistration | None
-    figures: dict[str, Any]
+    watch: Stopwatch
+    alignment: Mapping[str, Any] | None = None
+
+    @property
+    def registrations(self) -> tuple[FaceRegistration | JointFace, ...]:
+        """One per face that the scan deformed."""
+        return tuple(self.found.faces.values())
+
+    @property
+    def joint(self) -> JointRegistration | None:
+        """The registration of the whole part, where all faces were registered together."""
+        return self.found.joint
+
+    @cached_property
+    def deviations(self) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
+        """Of the same scan points from the nominal and from the as-built faces."""
+        with self.watch.stage("deviation", "Measuring the deviation"):
+            return compare(self.part, self.shape, list(self.found.faces), self.scan.points)
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -74,6 +91,25 @@ class Result:
         before, after = self.checks.errors()
         return Certificate(replace(self.topology.before, boolean_check=before),
                            replace(self.topology.after, boolean_check=after))
+
+    @cached_property
+    def figures(self) -> dict[str, Any]:
+        """The JSON report but for the topology."""
+        found, names = self.found, [face.name for face in self.part.faces]
+        moved, (before, after) = [names[index] for index in found.displacements], self.deviations
+        if found.joint is None:
+            edge_faces = [[names[index] for index in faces] for faces in self.topology.before.topology.edge_faces]
+            faces = record.face_records(names, moved, found.faces.values(), before, after)
+            edges = record.edge_records(edge_faces, moved, [item.name for item in found.faces.values()])
+        else:
+            faces = record.face_records(names, moved, found.joint.faces, before, after)
+            edges = record.joint_edge_records(found.joint.edges)
+        noise = float(np.median([item.noise for item in found.faces.values()]))
+        figures = {"faces": faces, "edges": edges, "deviation_before": record.all_figures(before),
+                   "deviation_after": record.all_figures(after),
+                   "scan": record.scan_record(self.scan, noise, self.sensor),
+                   "sheet": record.sheet_record(found.joint), "timing": self.watch.times()}
+        return figures if self.alignment is None else figures | {"alignment": self.alignment}
 
     @cached_property
     def report(self) -> dict[str, Any]:
@@ -132,21 +168,19 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
         wanted = None if faces is None else [part.index(name) for name in dict.fromkeys(faces)]
         _check_request(method, lattice, wanted, frozen, isometry, tuning, profile)
         check_overlap(cloud, *box(nominal.shape))
+        checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
+        checks.begin(nominal.shape)
     if method == "robust" and wanted is None:
         found = all_together(part, cloud, freeze, isometry, watch, tuning, profile or SensorProfile())
     else:
         found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
-    checks = BooleanChecks((nominal.shape, shape), BOOLEAN_CHECK_SECONDS)
+    checks.begin(shape)
     with watch.stage("certify", "Checking the topology"):
         certificate = certify(nominal.shape, shape, None)
         certificate.enforce()
-    with watch.stage("deviation", "Measuring the deviation"):
-        before, after = compare(part, shape, list(found.faces), cloud.points)
-    figures = _figures(part, cloud, found, before, after, certificate, watch, profile)
-    return Result(replace(nominal, shape=shape), nominal, cloud, tuple(found.faces.values()), before, after,
-                  certificate, checks, found.joint, figures)
+    return Result(replace(nominal, shape=shape), nominal, part, cloud, profile, found, certificate, checks, watch)
 
 
 def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],
@@ -172,23 +206,3 @@ def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None
         raise InputError("Isometry couples all faces of a sheet: it needs method robust without named faces.")
     if not together and sensor is not None:
         raise InputError("A sensor profile is for the whole part: it needs method robust without named faces.")
-
-
-def _figures(part: Workpiece, cloud: PointCloud, found: Deformation, before: Sequence[FaceDeviation],
-             after: Sequence[FaceDeviation], certificate: Certificate, watch: Stopwatch,
-             sensor: SensorProfile | None) -> dict[str, Any]:
-    names = [face.name for face in part.faces]
-    moved = [names[index] for index in found.displacements]
-    if found.joint is None:
-        edge_faces = [[names[index] for index in faces] for faces in certificate.before.topology.edge_faces]
-        faces = record.face_records(names, moved, found.faces.values(), before, after)
-        edges = record.edge_records(edge_faces, moved, [item.name for item in found.faces.values()])
-    else:
-        faces = record.face_records(names, moved, found.joint.faces, before, after)
-        edges = record.joint_edge_records(found.joint.edges)
-    return {
-        "faces": faces, "edges": edges,
-        "deviation_before": record.all_figures(before), "deviation_after": record.all_figures(after),
-        "scan": record.scan_record(cloud, float(np.median([item.noise for item in found.faces.values()])), sensor),
-        "sheet": record.sheet_record(found.joint),
-        "timing": watch.times()}

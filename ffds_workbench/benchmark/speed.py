@@ -20,7 +20,7 @@ from ..registration.ffds import equidistant_grid, register_ffds, solve
 from ..registration.neighbours import nearest_neighbours
 from ..registration.robust import register_robust
 from ..registration.splines import Array
-from . import page, sheet
+from . import page, sheet, speed_whole
 from .interleaved import best_seconds, median_seconds
 from .page import Section, Table
 
@@ -44,7 +44,8 @@ def run(folder: Path, progress: Progress, sizes: tuple[int, ...] = SIZES, repeat
     builds = _builds(repeats)
     progress("All sizes of the scan, in turn")
     scaling = _scaling(sizes)
-    data = {"points": POINTS, "builds": builds, "scaling": scaling}
+    whole = speed_whole.measure(progress) if sizes == SIZES else None
+    data = {"points": POINTS, "builds": builds, "scaling": scaling, "whole": whole}
     return page.write(folder, "speed", "Speed", _sections(data), data)
 
 
@@ -140,8 +141,9 @@ def _sections(data: dict[str, Any]) -> list[Section]:
     ratios = Table("Nanoseconds per further point, last step ÷ the one before", ["", "ratio"],
                    [[name, f"{_further(*sizes[-2:], name) / _further(*sizes[-3:-1], name):.2f}"] for name in names]
                    if len(sizes) > 2 else [])
-    return [Section("Against a k-d tree", text, tables=[builds]),
-            Section("Scaling", scaling_text, tables=[scaling, ratios])]
+    sections = [Section("Against a k-d tree", text, tables=[builds]),
+                Section("Scaling", scaling_text, tables=[scaling, ratios])]
+    return sections + ([speed_whole.section(data["whole"])] if data["whole"] else [])
 
 
 def _further(smaller: dict[str, Any], larger: dict[str, Any], name: str) -> float:

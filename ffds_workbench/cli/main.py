@@ -13,6 +13,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -184,7 +185,7 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
                           options.source_points, options.isometry, progress, sensor=options.sensor)
     if aligned is not None:
-        result.figures["alignment"] = aligned.report
+        result = replace(result, alignment=aligned.report)
     progress(f"Writing {options.out}")
     api.write(result, options.out, options.report, options.picture, inputs)
     tables = [aligned.table()] if aligned is not None else []

@@ -224,39 +224,45 @@ def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
 
 
 class BooleanChecks:
-    """OCCT's checks for Boolean operations, begun at once and running beside other work.
+    """OCCT's checks for Boolean operations, running beside other work.
 
     A check can take hours and cannot be interrupted, so each shape is checked in a process of its own. It ends with
     this object, or by itself when it has used the time, should nobody be left to end it.
 
     Parameters
     ----------
-    shapes : what to check
-    limit : seconds from now after which a check is given up
+    limit : seconds from its beginning after which a check is given up
     """
 
-    def __init__(self, shapes: Sequence[Part.Shape], limit: float) -> None:
-        self._deadline = time.monotonic() + limit
+    def __init__(self, limit: float) -> None:
+        self._limit = limit
         self._folder = tempfile.TemporaryDirectory()
+        self._deadlines: list[float] = []
         self._processes: list[subprocess.Popen[str]] = []
         self._end = weakref.finalize(self, _end, self._processes, self._folder)
-        for number, shape in enumerate(shapes):
-            path = Path(self._folder.name) / f"{number}.brep"
-            shape.exportBrep(str(path))
-            command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(limit) + 1)]
-            self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                                    text=True))
+
+    def begin(self, shape: Part.Shape) -> None:
+        """Begin the check of a shape."""
+        path = Path(self._folder.name) / f"{len(self._processes)}.brep"
+        shape.exportBrep(str(path))
+        command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(self._limit) + 1)]
+        self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
+        self._deadlines.append(time.monotonic() + self._limit)
 
     def errors(self) -> tuple[int | None, ...]:
         """Number of errors found in each shape, waited for; None where the check did not finish in time."""
-        found = tuple(_errors(process, self._deadline) for process in self._processes)
+        found = tuple(_errors(process, deadline) for process, deadline in
+                      zip(self._processes, self._deadlines, strict=True))
         self._end()
         return found
 
 
 def boolean_checks(shapes: Sequence[Part.Shape], limit: float) -> tuple[int | None, ...]:
     """Errors that OCCT's check for Boolean operations reports for each shape; None where it took over ``limit`` s."""
-    return BooleanChecks(shapes, limit).errors()
+    checks = BooleanChecks(limit)
+    for shape in shapes:
+        checks.begin(shape)
+    return checks.errors()
 
 
 def _end(processes: Sequence[subprocess.Popen[str]], folder: tempfile.TemporaryDirectory[str]) -> None:
