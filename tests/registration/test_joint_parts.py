@@ -89,6 +89,18 @@ def test_strain_derivative(cylinder, lattices):
     assert np.einsum("skpcx,scx->skp", rows, change[lattices.controls]) == pytest.approx(expected, abs=1e-6)
 
 
+def test_strain_load_is_that_of_the_rows(cylinder, lattices):
+    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    random = np.random.default_rng(4)
+    points = 0.1 * random.normal(size=(lattices.count, 3))
+    thickness = np.full(len(lattices.controls), 3.0)
+    normal = normals(stiffness.places.displaced(lattices, points, 3), stiffness.places.outward)[0]
+    stress = random.normal(size=normal.shape)
+    rows = stiffness.strain_rows(lattices, points, normal, thickness)
+    load = stiffness.strain_load(lattices, points, normal, thickness, stress)
+    assert load == pytest.approx(np.einsum("skpcx,skp->scx", rows, stress), abs=1e-9)
+
+
 def test_fronts_solve_and_invert_like_a_dense_matrix():
     side = 14
     place = np.stack(np.meshgrid(np.arange(side), np.arange(side), [0.0], indexing="ij"), -1).reshape(-1, 3)

@@ -22,18 +22,18 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
-    assert state.factor is not None
+    assert state.factor is not None and state.strained is not None
     inverse = state.factor.inverse_blocks()
-    prior = shape_equations(problem, state.control_points, 1.0, state.trust).blocks
+    prior = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained).blocks
     told = 3 * problem.lattices.count - float((inverse * prior).sum())
     ratio = paid(problem, state) / max(told, 1.0)
     if ratio < _SAME:
         return inverse
-    data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values).blocks
+    data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
     borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                            problem.statistics.noise)
-    data = data + border_equations(problem, borders).blocks
-    return FrontCholesky(problem.pattern.layout, data + prior / ratio).inverse_blocks()
+    data += border_equations(problem, borders)
+    return FrontCholesky(problem.pattern.layout, data.blocks + prior / ratio).inverse_blocks()
 
 
 def paid(problem: Problem, state: State) -> float:

@@ -44,8 +44,9 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    bending, coupled, smooth, dihedral : constant rows on the pattern, bending without its weight
-    shear, thickness : those of the distance of opposite skins in all directions, and of its part along the normal
+    coupled : (size,) constant rows on the pattern, the same for x, y and z
+    constant : (5, size, 3, 3) these with the rows of smooth edges, and those that have a weight of their own: of
+        bending, of the distance of opposite skins in all directions and of its part along the normal, of sharp edges
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -62,12 +63,8 @@ class Problem:
     stiffness: Stiffness
     couplings: Couplings
     pattern: Pattern
-    bending: Array
     coupled: Array
-    shear: Array
-    thickness: Array
-    smooth: Array
-    dihedral: Array
+    constant: Array
     sides: EdgeSides
     margin: Array
 
@@ -86,10 +83,10 @@ class Problem:
         """Whether a span belongs to the skin of a sheet."""
         return self.sheet_of_span > 0
 
-    def isometry_weights(self, trust: Trust) -> Array:
-        """Weight of the strain per mm² of every span: (spans,). Walls may stretch more than skins do."""
+    def isometry_weights(self, trust: Trust) -> tuple[float, float]:
+        """Weight of the strain per mm² of skins and of walls, which may stretch more."""
         weight = self.settings.isometry_weight * trust.isometry
-        return np.where(self.skin, weight, min(_WALL * weight, self.settings.isometry_weight_walls))
+        return weight, min(_WALL * weight, self.settings.isometry_weight_walls)
 
 
 def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int]) -> Problem:
@@ -118,19 +115,25 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
+    scalar = pattern.from_scalar(couplings.scalar)
+    constant = np.stack([_same_for_all(scalar) + pattern.from_vector(couplings.smooth), _bending(pattern, stiffness),
+                         _same_for_all(pattern.from_scalar(couplings.shear)), pattern.from_vector(couplings.thickness),
+                         pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
-                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
-                   _bending(pattern, stiffness), pattern.from_scalar(couplings.scalar),
-                   pattern.from_scalar(couplings.shear), pattern.from_vector(couplings.thickness),
-                   pattern.from_vector(couplings.smooth), pattern.from_vector(couplings.dihedral),
+                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, scalar, constant,
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
+
+
+def _same_for_all(values: Array) -> Array:
+    """Values (size,) for each of x, y and z: (size, 3, 3)."""
+    return values[:, None, None] * np.eye(3)
 
 
 def _bending(pattern: Pattern, stiffness: Stiffness) -> Array:
     """Rows of bending on the pattern: (size, 3, 3)."""
     every, along = stiffness.bending_blocks()
-    blocks = (SLIDING * pattern.from_spans(every))[:, None, None] * np.eye(3)
+    blocks = _same_for_all(SLIDING * pattern.from_spans(every))
     for number, (a, b) in enumerate(COMPONENTS):
         value = (1 - SLIDING) * pattern.from_spans(along[:, number])
         blocks[:, a, b] += value

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import RefusedError
 from ..splines import Array
-from .assembly import border_equations, data_equations, shape_equations
+from .assembly import border_equations, data_equations, shape_equations, strain_blocks
 from .boundary import find_borders, near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
@@ -35,6 +35,9 @@ _SETTLED = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
 _HARDLY_MOVES = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
+_HARDLY_TURNS = 0.2
+"""Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
+so far that the steps would go astray."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -111,8 +114,11 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     cell_values = tukey_means if stage.all_points else medians
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
-    equations = (data_equations(problem, jet, values)
-                 + shape_equations(problem, state.control_points, stage.bending, state.trust))
+    strained, turned = state.strained, state.turned
+    if strained is None or turned > _HARDLY_TURNS:
+        strained, turned = strain_blocks(problem, state.control_points), 0.0
+    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained)
+    equations += data_equations(problem, jet, values)
     if stage.soft:
         borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)
@@ -121,4 +127,5 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor, values=values, noise=values.noise,
-                   nearest=found.nearest, last_step=last_step, iterations=state.iterations + 1)
+                   nearest=found.nearest, strained=strained, turned=turned + last_step, last_step=last_step,
+                   iterations=state.iterations + 1)

@@ -36,6 +36,8 @@ class State:
     trust : in the priors
     near : scan points near the edges, once they are needed
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
+    strained : `strain_blocks` of a shape near by
+    turned : how far the shape has moved since, in mm
     factor : of an earlier normal matrix; after the last stage of one with all data
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
@@ -50,6 +52,8 @@ class State:
     trust: Trust = field(default_factory=Trust)
     near: Array = field(default_factory=lambda: np.zeros((0, 3)))
     nearest: Index | None = None
+    strained: Array | None = None
+    turned: float = 0.0
     factor: FrontCholesky | None = None
     last_step: float = np.inf
     iterations: int = 0

@@ -99,6 +99,18 @@ class Stiffness:
         change = _third_form(form, metric) - _third_form(self.curvature, np.broadcast_to([1.0, 0.0, 1.0], metric.shape))
         return np.asarray(0.5 * (first + t * (form - self.curvature) + 0.25 * t**2 * change))
 
+    def strain_load(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array,
+                    stress: Array) -> Array:
+        """`strain_rows` times a stress (spans, k, 3), without them: (spans, 16, 3)."""
+        tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])
+        shear = stress[..., 1:2] / np.sqrt(2.0)
+        pull = np.stack([stress[..., :1] * tangent[:, :, 0] + shear * tangent[:, :, 1],
+                         shear * tangent[:, :, 0] + stress[..., 2:] * tangent[:, :, 1]], axis=2)
+        moment = (0.5 * thickness[:, None, None] * stress)[..., None] * normal[:, :, None, :]
+        spans = len(pull)
+        slope, hessian = (rows.reshape(spans, -1, 16).swapaxes(1, 2) for rows in (self.slope, self.hessian))
+        return np.matmul(slope, pull.reshape(spans, -1, 3)) + np.matmul(hessian, moment.reshape(spans, -1, 3))
+
     def strain_rows(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
         """Derivative of `strain` by the control points: (spans, k, 3, 16, 3)."""
         tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])

@@ -46,9 +46,10 @@ class Pattern:
         """Where the blocks (row, column) stand in the pattern."""
         return np.searchsorted(self._keys, rows * self.count + columns)
 
-    def from_spans(self, blocks: Array) -> Array:
-        """Sum up symmetric 16 × 16 blocks of spans: (spans, 16, 16) to (size,)."""
-        return np.bincount(self.span_position, weights=blocks.ravel(), minlength=self.size).astype(float)
+    def from_spans(self, blocks: Array, spans: Index | slice = slice(None)) -> Array:
+        """Sum up symmetric 16 × 16 blocks of all spans or of the given ones: (spans, 16, 16) to (size,)."""
+        position = self.span_position.reshape(-1, 256)[spans].ravel()
+        return np.bincount(position, weights=blocks.ravel(), minlength=self.size).astype(float, copy=False)
 
     def from_scalar(self, matrix: spmatrix) -> Array:
         """Values of a scalar (controls, controls) matrix on the pattern: (size,)."""

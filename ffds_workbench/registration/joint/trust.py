@@ -50,7 +50,7 @@ def costs(problem: Problem, control_points: Array) -> Trust:
     strain = (problem.stiffness.weight * (strain_at(problem, control_points) ** 2).sum(axis=2)).sum(axis=1)
     across, along = couplings.thickness_misfit(control_points)
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
-    return Trust(isometry=float((problem.skin * problem.isometry_weights(Trust()) * strain).sum()),
+    return Trust(isometry=float(problem.isometry_weights(Trust())[0] * strain[problem.skin].sum()),
                  thickness=float((weight * across**2).sum()),
                  shear=float((weight[:, None] * along**2).sum()),
                  dihedral=float((couplings.dihedral_weight[couplings.sharp] * turned**2).sum()))
