@@ -69,7 +69,7 @@ class Spline:
         first, last = self.knots[self.degree], self.knots[-self.degree - 1]
         if self.periodic:
             t = first + np.mod(t - first, last - first)
-        values = BSpline(self.knots, self.poles, self.degree)(t)
+        values = BSpline.construct_fast(self.knots, self.poles, self.degree)(t)
         return values[:, :-1] / values[:, -1:] if self.rational else values
 
     def breaks(self) -> Array:

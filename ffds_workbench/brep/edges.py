@@ -38,7 +38,7 @@ class Trace:
             axis, curve = self._isoparametric
             start, end = curve.knots[DEGREE], curve.knots[-DEGREE - 1]
             along = self.uv(fraction)[:, axis]
-            return curve(along if curve.periodic else np.clip(along, start, end))
+            return curve(along if curve.periodic else np.minimum(np.maximum(along, start), end))
         return self.surface(self.uv(fraction))
 
     @cached_property
@@ -153,7 +153,7 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
     traces = along or [trace for trace in traces if trace.at_seam(0.0) or trace.at_seam(1.0)] or traces
 
     def mean(t: Array) -> Array:
-        fraction = np.clip((t - first) / (last - first), 0.0, 1.0)
+        fraction = np.minimum(np.maximum((t - first) / (last - first), 0.0), 1.0)
         return sum(trace.at(fraction) for trace in traces) / len(traces)
 
     breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import BSpline
+from scipy.linalg import solve_banded
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
-from ..registration.splines import DEGREE, Array, SplineSurface, greville
+from ..registration.splines import DEGREE, Array, SplineSurface, basis_rows, greville
 
 GridFunction = Callable[[Array, Array], Array]
 """f(u (m,), v (n,)) -> values on the grid, (m, n, 3)."""
@@ -50,7 +51,7 @@ class Direction:
     interior: Array
     closed: bool
 
-    @property
+    @cached_property
     def knots(self) -> Array:
         a, b = self.start, self.end
         if not self.closed:
@@ -58,7 +59,7 @@ class Direction:
         one = np.concatenate([[a], self.interior])
         return np.concatenate([one[-DEGREE:] - (b - a), one, [b], one[1 : DEGREE + 1] + (b - a)])
 
-    @property
+    @cached_property
     def sites(self) -> Array:
         """Interpolation sites: Greville abscissae, one per free control point."""
         x = greville(self.knots)
@@ -72,19 +73,17 @@ class Direction:
         breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
         return breaks[:-1, None] + np.diff(breaks)[:, None] * _CHECKS
 
-    def matrix(self, x: Array) -> csc_matrix:
-        """Basis functions at x, columns of repeated control points of a closed direction added up."""
-        basis = BSpline.design_matrix(x, self.knots, DEGREE).tocsc()
-        if not self.closed:
-            return basis
-        free = basis.shape[1] - DEGREE
-        fold = csc_matrix((np.ones(free + DEGREE), (np.arange(free + DEGREE), np.arange(free + DEGREE) % free)))
-        return (basis @ fold).tocsc()
-
     def solve(self, values: Array) -> Array:
         """Control points that interpolate values at the sites along axis 0, without the repeated ones."""
-        factor = splu(self.matrix(self.sites))
-        return factor.solve(values.reshape(len(values), -1)).reshape(values.shape)
+        first, basis = basis_rows(self.knots, self.sites)
+        row, column = np.arange(len(first))[:, None], first[:, None] + np.arange(DEGREE + 1)
+        right = values.reshape(len(values), -1)
+        if self.closed:
+            places = np.broadcast_to(row, column.shape).ravel(), (column % len(first)).ravel()
+            return np.asarray(splu(csc_matrix((basis.ravel(), places))).solve(right).reshape(values.shape))
+        bands = np.zeros((2 * DEGREE + 1, len(first)))
+        bands[DEGREE + row - column, column] = basis
+        return np.asarray(solve_banded((DEGREE, DEGREE), bands, right).reshape(values.shape))
 
     def unroll(self, points: Array) -> Array:
         """Control points along axis 0 with the repeated ones of a closed direction appended."""

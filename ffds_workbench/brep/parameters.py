@@ -2,6 +2,8 @@
 """What a FreeCAD face says about its own (u, v): the parameter box, the trims and the knots of its surface."""
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import Part
 
@@ -9,6 +11,7 @@ from ..registration.splines import DEGREE, Array
 from .lattice import ParameterBox
 
 _CURVE_SAMPLES = 65
+_QUARTER = 0.5 * np.pi
 _WIDENING = 0.002
 _COINCIDENT = 1e-7
 """Points of a surface this close (mm) are one: OCCT's own precision."""
@@ -19,6 +22,25 @@ _SEAM_SLOPE = 1e-5
 def forward(face: Part.Face) -> Part.Face:
     """The face taken FORWARD, in which its wires tell the right pcurve of a seam."""
     return face.reversed() if face.Orientation == "Reversed" else face
+
+
+def closed_form(surface: Part.GeometrySurface) -> Callable[[Array, Array], Array] | None:
+    """S(u, v) for arrays of u and v, exact but for rounding, of planes and cylinders; None for other surfaces.
+
+    Most faces are of these, and a call of OCCT for every point takes a hundred times as long.
+    """
+    kind = type(surface).__name__
+    if kind not in ("Plane", "Cylinder"):
+        return None
+    origin, right, up = (np.array(tuple(surface.value(u, v))) for u, v in ((0.0, 0.0), (_QUARTER, 0.0), (0.0, 1.0)))
+    along = up - origin
+    if kind == "Plane":
+        across = (right - origin) / _QUARTER
+        return lambda u, v: origin + u[..., None] * across + v[..., None] * along
+    centre = 0.5 * (origin + np.array(tuple(surface.value(np.pi, 0.0))))
+    axes = origin - centre, right - centre
+    return lambda u, v: (centre + np.cos(u)[..., None] * axes[0] + np.sin(u)[..., None] * axes[1]
+                         + v[..., None] * along)
 
 
 def trims(face: Part.Face) -> tuple[tuple[Array, ...], bool]:

@@ -5,6 +5,7 @@ Faces are numbered as FreeCAD numbers them; index 5 is "Face6". Everything is in
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..errors import InputError
 from ..registration.face import FaceGeometry
 from ..registration.splines import Array, SplineSurface
 from .lattice import ParameterBox, approximate
-from .parameters import own_knots, parameter_box, trims
+from .parameters import closed_form, own_knots, parameter_box, trims
 from .topology import Topology
 from .topology import read as read_topology
 
@@ -54,14 +55,22 @@ class WorkpieceFace:
 
     def on_grid(self, u: Array, v: Array) -> Array:
         """The face's own, exact surface on the grid u × v: (len(u), len(v), 3)."""
+        if self._simple is not None:
+            return self._simple(u[:, None], v)
         value = self.own_surface.value
         points = np.array([tuple(value(a, b)) for a in u.tolist() for b in v.tolist()])
         return points.reshape(len(u), len(v), 3)
 
     def at(self, uv: Array) -> Array:
         """The face's own, exact surface at scattered parameters: (n, 2) to (n, 3)."""
+        if self._simple is not None:
+            return self._simple(uv[:, 0], uv[:, 1])
         value = self.own_surface.value
         return np.array([tuple(value(a, b)) for a, b in uv.tolist()]).reshape(-1, 3)
+
+    @cached_property
+    def _simple(self) -> Callable[[Array, Array], Array] | None:
+        return closed_form(self.own_surface)
 
     @cached_property
     def surface(self) -> SplineSurface:

@@ -16,6 +16,7 @@ from scipy.interpolate import BSpline
 Array = NDArray[np.float64]
 DEGREE = 3
 _SMALL = 40000
+_CHUNK = 4096
 
 
 def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) -> Array:
@@ -28,8 +29,8 @@ def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) ->
 
 def greville(knots: Array, degree: int = DEGREE) -> Array:
     """Greville abscissae, the means of ``degree`` successive inner knots (NURBS Book, eq. 9.8 with averages)."""
-    windows = np.lib.stride_tricks.sliding_window_view(knots[1:-1], degree)
-    return windows.mean(axis=1)
+    count = len(knots) - degree - 1
+    return np.asarray(sum(knots[first : first + count] for first in range(1, degree + 1)) / degree)
 
 
 def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int = 0) -> Array:
@@ -50,9 +51,26 @@ def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np
     -------
     first : (n,) index of the first of them
     values : (n, degree + 1)
+
+    Notes
+    -----
+    The NURBS Book, algorithm A2.2, for all x at once: scipy's sparse matrix of them takes several times as long to make
+    where there are few.
     """
-    rows = BSpline.design_matrix(x, knots, degree)
-    return rows.indices[:: degree + 1].astype(np.intp), rows.data.reshape(-1, degree + 1)
+    span = np.searchsorted(knots, x, side="right") - 1
+    span = np.minimum(np.maximum(span, degree), len(knots) - degree - 2)
+    values = np.ones((degree + 1, len(x)))
+    left, right = [], []
+    for order in range(degree):
+        left.append(x - knots[span - order])
+        right.append(knots[span + order + 1] - x)
+        carried = 0.0
+        for k in range(order + 1):
+            share = values[k] / (right[k] + left[order - k])
+            values[k] = carried + right[k] * share
+            carried = left[order - k] * share
+        values[order + 1] = carried
+    return span - degree, values.T
 
 
 def tensor_product(basis_u: Array, basis_v: Array, control_points: Array) -> Array:
@@ -90,20 +108,26 @@ class SplineSurface:
     def inside(self, uv: Array) -> Array:
         """(n, 2) parameters brought into the range: wrapped where periodic, clipped elsewhere."""
         u0, u1, v0, v1 = self.range
-        u = u0 + np.mod(uv[:, 0] - u0, u1 - u0) if self.periodic_u else np.clip(uv[:, 0], u0, u1)
-        v = v0 + np.mod(uv[:, 1] - v0, v1 - v0) if self.periodic_v else np.clip(uv[:, 1], v0, v1)
-        return np.stack([u, v], axis=1)
+        result = np.empty((len(uv), 2))
+        for axis, low, high, periodic in ((0, u0, u1, self.periodic_u), (1, v0, v1, self.periodic_v)):
+            x = uv[:, axis]
+            result[:, axis] = (low + np.mod(x - low, high - low) if periodic
+                               else np.minimum(np.maximum(x, low), high))  # np.clip takes several times as long
+        return result
 
     def __call__(self, uv: Array) -> Array:
         """Values at scattered parameters: (n, 2) to (n, dim). Parameters outside are wrapped or clipped."""
         uv = self.inside(np.asarray(uv, dtype=float))
         first_u, bu = basis_rows(self.knots_u, uv[:, 0], self.degree_u)
         first_v, bv = basis_rows(self.knots_v, uv[:, 1], self.degree_v)
-        result = np.zeros((len(uv), self.control_points.shape[2]))
-        for a in range(self.degree_u + 1):
-            for b in range(self.degree_v + 1):
-                weight = (bu[:, a] * bv[:, b])[:, None]
-                result += weight * self.control_points[first_u + a, first_v + b]
+        _, nv, dim = self.control_points.shape
+        place = ((first_u[:, None] + np.arange(self.degree_u + 1)) * nv + first_v[:, None])[:, :, None]
+        place = place + np.arange(self.degree_v + 1)
+        points, weight = self.control_points.reshape(-1, dim), bu[:, :, None] * bv[:, None, :]
+        result = np.empty((len(uv), dim))
+        for start in range(0, len(uv), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            result[part] = np.einsum("nab,nabd->nd", weight[part], points[place[part]])
         return result
 
     def on_grid(self, u: Array, v: Array) -> Array:

@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Interpolation on knots that are refined where the error asks for it."""
+import FreeCAD
 import numpy as np
+import Part
+import pytest
+from scipy.interpolate import BSpline
 
 from ffds_workbench.brep.lattice import ParameterBox, approximate
+from ffds_workbench.brep.parameters import closed_form
+from ffds_workbench.registration.splines import basis_rows
 
 
 def test_a_kink_that_no_knot_marks_does_not_pile_up_knots():
@@ -26,3 +32,26 @@ def test_a_closed_direction_ends_exactly_at_its_end():
     surface = approximate(ring, box, np.empty(0), np.empty(0), 1e-6)
     assert surface.range[1] == box.u1
     assert np.diff(np.unique(surface.knots_u)).min() > 1e-3
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3])
+def test_basis_rows_are_those_of_scipy(degree):
+    random = np.random.default_rng(degree)
+    inner = np.sort(np.repeat(random.uniform(0.1, 0.9, 4), [1, 1, 1, degree]))
+    knots = np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
+    x = np.concatenate([[0.0, 1.0], inner, random.uniform(0, 1, 50)])
+    first, values = basis_rows(knots, x, degree)
+    dense = np.zeros((len(x), len(knots) - degree - 1))
+    dense[np.arange(len(x))[:, None], first[:, None] + np.arange(degree + 1)] = values
+    assert dense == pytest.approx(BSpline.design_matrix(x, knots, degree).toarray(), abs=1e-13)
+
+
+def test_planes_and_cylinders_in_closed_form():
+    placement = FreeCAD.Placement(FreeCAD.Vector(100, -50, 33), FreeCAD.Rotation(FreeCAD.Vector(1, 2, 3), 40))
+    for shape in (Part.makeBox(30, 20, 5), Part.makeCylinder(7, 40)):
+        shape = shape.mirror(FreeCAD.Vector(), FreeCAD.Vector(1, 0.3, 0.2))
+        shape.Placement = placement.multiply(shape.Placement)
+        for face in shape.Faces:
+            u, v = np.random.default_rng(0).uniform(-6, 6, (2, 50))
+            expected = np.array([tuple(face.Surface.value(a, b)) for a, b in zip(u, v, strict=True)])
+            assert closed_form(face.Surface)(u, v) == pytest.approx(expected, abs=1e-10)
