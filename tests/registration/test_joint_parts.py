@@ -36,8 +36,9 @@ def fitted(lattices, faces, field):
     for index, face in enumerate(faces):
         u0, u1, v0, v1 = face.surface.range
         uv = np.stack(np.meshgrid(np.linspace(u0, u1, 80), np.linspace(v0, v1, 40), indexing="ij"), -1).reshape(-1, 2)
-        controls, weights = lattices.rows(index, uv)
-        matrix = csr_matrix((weights.ravel(), controls.ravel(), np.arange(len(uv) + 1) * 16), (len(uv), lattices.count))
+        spans, weights = lattices.rows(index, uv)
+        matrix = csr_matrix((weights.ravel(), lattices.controls[spans].ravel(), np.arange(len(uv) + 1) * 16),
+                            (len(uv), lattices.count))
         own = np.flatnonzero(lattices.face_of_control == index)
         points[own] = np.linalg.lstsq(matrix[:, own].toarray(), field(face.surface(uv)), rcond=None)[0]
     return points
@@ -55,8 +56,8 @@ def test_spline_of_a_face_equals_its_rows(cylinder, lattices):
     for index, face in enumerate(cylinder.faces):
         u0, u1, v0, v1 = face.surface.range
         uv = np.random.default_rng(1).uniform([u0, v0], [u1, v1], (50, 2))
-        controls, weights = lattices.rows(index, uv)
-        expected = np.einsum("nc,ncx->nx", weights, points[controls])
+        spans, weights = lattices.rows(index, uv)
+        expected = np.einsum("nc,ncx->nx", weights, points[lattices.controls[spans]])
         assert lattices.spline(index, points)(uv) == pytest.approx(expected, abs=1e-12)
 
 

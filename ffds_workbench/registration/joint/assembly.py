@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import blas
 
 from ..splines import Array
 from .boundary import Borders
@@ -23,28 +24,28 @@ class NormalEquations:
     blocks: Array
     right: Array
 
-    def __iadd__(self, other: NormalEquations) -> NormalEquations:
-        np.add(self.blocks, other.blocks, out=self.blocks)
-        np.add(self.right, other.right, out=self.right)
-        return self
 
 
-def data_equations(problem: Problem, jet: Jet, values: CellValues) -> NormalEquations:
-    """Point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the normal)."""
+def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: CellValues) -> None:
+    """Add the rows of the scan, point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the
+    normal)."""
     shape = problem.cells.inside.shape
     normal = normals(jet, problem.cells.outward)[0]
     weight = values.weight.reshape(shape)
     used = np.flatnonzero(weight.any(axis=1))
     table = problem.cells.tables[0]
     normal, weight = normal[used], weight[used]
-    blocks = np.empty((problem.pattern.size, 3, 3))
     for a, b in COMPONENTS:
-        value = _table_products(problem, weight * normal[:, :, a] * normal[:, :, b])
-        blocks[:, a, b] = problem.pattern.from_spans(value, used)
-        if a != b:
-            blocks[:, b, a] = blocks[:, a, b]
+        products = _table_products(problem, weight * normal[:, :, a] * normal[:, :, b])
+        _add_symmetric(equations, a, b, problem.pattern.from_spans(products, used))
     pull = (weight * values.height.reshape(shape)[used])[:, :, None] * normal
-    return NormalEquations(blocks, gather(problem, np.matmul(table.T, pull), used))
+    np.add(equations.right, gather(problem, np.matmul(table.T, pull), used), out=equations.right)
+
+
+def _add_symmetric(equations: NormalEquations, a: int, b: int, values: Array) -> None:
+    equations.blocks[:, a, b] += values
+    if a != b:
+        equations.blocks[:, b, a] += values
 
 
 def _table_products(problem: Problem, weight: Array) -> Array:
@@ -65,22 +66,20 @@ def gather(problem: Problem, loads: Array, spans: Index | slice = slice(None)) -
     return np.stack([np.bincount(controls, weights=flat[:, k], minlength=count) for k in range(3)], axis=1)
 
 
-def border_equations(problem: Problem, borders: Borders) -> NormalEquations:
-    """m·(B δ) = offset at the visible borders."""
+def add_borders(equations: NormalEquations, problem: Problem, borders: Borders) -> None:
+    """Add m·(B δ) = offset at the visible borders."""
     samples, m = borders.samples, borders.direction
-    basis, weight = samples.weights[0], borders.weight[:, None, None]
-    products = (weight * basis[:, :, None] * basis[:, None, :]).reshape(len(samples), 256)
-    rows, columns = np.repeat(samples.controls, 16, axis=1).ravel(), np.tile(samples.controls, 16).ravel()
-    position = problem.pattern.position(rows, columns)
-    blocks = np.zeros((problem.pattern.size, 3, 3))
-    for a in range(3):
-        for b in range(3):
-            value = (products * (m[:, a] * m[:, b])[:, None]).ravel()
-            blocks[:, a, b] = np.bincount(position, weights=value, minlength=problem.pattern.size)
-    right = np.zeros((problem.lattices.count, 3))
+    order = np.argsort(samples.span, kind="stable")
+    spans, first = np.unique(samples.span[order], return_index=True)
+    if not len(spans):
+        return
+    basis = samples.weights[0]
+    products = (borders.weight[:, None, None] * basis[:, :, None] * basis[:, None, :])[order]
+    for a, b in COMPONENTS:
+        values = np.add.reduceat(products * (m[order, a] * m[order, b])[:, None, None], first)
+        _add_symmetric(equations, a, b, problem.pattern.from_spans(values, spans))
     pull = (borders.weight * borders.offset)[:, None, None] * basis[:, :, None] * m[:, None, :]
-    np.add.at(right, samples.controls, pull)
-    return NormalEquations(blocks, right)
+    np.add(equations.right, gather(problem, pull, samples.span), out=equations.right)
 
 
 def shape_equations(problem: Problem, control_points: Array, bending: float, trust: Trust,
@@ -92,20 +91,20 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     factors = np.array([1.0, weight, trust.shear, trust.thickness - trust.shear, trust.dihedral])
-    blocks = (factors @ problem.constant.reshape(len(factors), -1)).reshape(-1, 3, 3)
+    blocks = factors @ problem.constant.reshape(len(factors), -1)
     skin, wall = problem.isometry_weights(trust)
-    blocks += skin * strained[0]
-    blocks += wall * strained[1]
+    for rows, isometry in zip(strained, (skin, wall), strict=True):
+        blocks = blas.daxpy(rows.ravel(), blocks, a=isometry)
     bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     right = (weight * gather(problem, stiffness.bending_load(control_points, problem.lattices, normal, bent))
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
-             - _apply(problem, problem.coupled, control_points))
+             - problem.couplings.scalar @ control_points)
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
     stress = (np.where(problem.skin, skin, wall)[:, None] * stiffness.weight)[..., None] * strain
     right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
                                                    stress))
-    return NormalEquations(blocks, right)
+    return NormalEquations(blocks.reshape(-1, 3, 3), right)
 
 
 def strain_blocks(problem: Problem, control_points: Array) -> Array:
@@ -134,8 +133,4 @@ def evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array
     mean = np.stack([np.bincount(face, weights=change[:, p]) for p in range(3)], axis=1) / whole[:, None]
     return np.where(problem.skin[:, None], mean[face], 0.0)
 
-
-def _apply(problem: Problem, scalar: Array, control_points: Array) -> Array:
-    product = scalar[:, None] * control_points[problem.pattern.indices]
-    return np.add.reduceat(product, problem.pattern.indptr[:-1], axis=0)
 

@@ -23,7 +23,7 @@ _EDGE_MISFIT = 0.045
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
     """Covariance of the control points of spans from its blocks on the pattern: (n, 16, 16, 3, 3)."""
-    return covariance[problem.pattern.span_position.reshape(-1, 16, 16)[spans]]
+    return covariance[problem.pattern.between(spans)].reshape(len(spans), 16, 16, 3, 3)
 
 
 def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Array, normal: Array, gap: Array,
@@ -55,9 +55,7 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samp
     bands = np.zeros(len(samples))
     for start in range(0, len(samples), 512):
         part = samples.take(np.arange(start, min(start + 512, len(samples))))
-        rows, columns = np.repeat(part.controls, 16, axis=1).ravel(), np.tile(part.controls, 16).ravel()
-        position = problem.pattern.position(rows, columns)
-        blocks = covariance[position].reshape(len(part), 16, 16, 3, 3)
+        blocks = span_covariance(problem, covariance, part.span)
         at = np.einsum("ni,nj,nijxy->nxy", part.weights[0], part.weights[0], blocks, optimize=True)
         for error in errors:
             moved = part.displacement(error)

@@ -24,7 +24,7 @@ class FrontLayout:
         self.offset = np.concatenate([[0], np.cumsum(self.sizes**2)])
         self.own_rows = [_triple(f.own) for f in fronts]
         self.border_rows = [_triple(f.border) for f in fronts]
-        self.parent_places = [_triple(f.in_parent) for f in fronts]
+        self.parent_runs = [_runs(f.in_parent) for f in fronts]
         front_of = np.empty(rows.max() + 1, dtype=np.intp)
         for number, front in enumerate(fronts):
             front_of[front.own] = number
@@ -39,7 +39,12 @@ class FrontLayout:
             here = order[bounds[number] : bounds[number + 1]]
             target[here] = self.offset[number] + 3 * (place[rows[here]] * self.sizes[number] + place[columns[here]])
         inner = np.arange(3)[:, None] * self.sizes[home][:, None, None] + np.arange(3)
-        self.target = (target[:, None, None] + inner).ravel()
+        targets = target[:, None, None] + inner
+        order = np.empty(len(front_of), dtype=np.intp)
+        order[np.concatenate([f.own for f in fronts])] = np.arange(len(order))
+        self.upper = np.flatnonzero(order[rows] <= order[columns])
+        self.upper_target = targets[self.upper].ravel()
+        self.target = targets.ravel()
 
     def matrix(self, flat: Array, number: int) -> Array:
         """The dense matrix of one front as a view, rows of its own nodes first."""
@@ -59,7 +64,7 @@ class FrontCholesky:
         """
         self.layout = layout
         flat = np.zeros(layout.offset[-1])
-        flat[layout.target] = blocks.ravel()
+        flat[layout.upper_target] = blocks[layout.upper].ravel()      # nothing below the diagonals is ever looked at
         self.own: list[Array] = []
         self.border: list[Array] = []
         for number, front in enumerate(layout.fronts):
@@ -67,11 +72,13 @@ class FrontCholesky:
             factor, info = lapack.dpotrf(matrix[:k, :k].T, lower=1, clean=1)
             if info:
                 raise np.linalg.LinAlgError("the normal matrix is not positive definite")
-            border = blas.dtrsm(1.0, factor, matrix[k:, :k].T, lower=1)
+            border = blas.dtrsm(1.0, factor, matrix[:k, k:], lower=1)
             if front.parent >= 0:
-                places = layout.parent_places[number]
-                above = layout.matrix(flat, front.parent)
-                above[np.ix_(places, places)] += matrix[k:, k:] - border.T @ border
+                left = blas.dsyrk(-1.0, border, 1.0, matrix[k:, k:].T, trans=1, lower=1).T
+                above, runs = layout.matrix(flat, front.parent), layout.parent_runs[number]
+                for first, (here, there) in enumerate(runs):
+                    for other_here, other_there in runs[first:]:
+                        above[there, other_there] += left[here, other_here]
             self.own.append(factor)
             self.border.append(border)
 
@@ -91,20 +98,30 @@ class FrontCholesky:
     def inverse_blocks(self) -> Array:
         """The blocks of A⁻¹ on the pattern, (n, 3, 3)."""
         layout = self.layout
-        flat = np.zeros(layout.offset[-1])
+        flat = np.empty(layout.offset[-1])
         for number in range(len(layout.fronts) - 1, -1, -1):
             front, z = layout.fronts[number], layout.matrix(flat, number)
             k = 3 * len(front.own)
             lower = np.tril(lapack.dpotri(self.own[number], lower=1)[0])
             z[:k, :k] = lower + np.tril(lower, -1).T
             if front.parent >= 0:
-                places = layout.parent_places[number]
-                z[k:, k:] = layout.matrix(flat, front.parent)[np.ix_(places, places)]
+                above, runs, below = layout.matrix(flat, front.parent), layout.parent_runs[number], z[k:, k:]
+                for here, there in runs:
+                    for other_here, other_there in runs:
+                        below[here, other_here] = above[there, other_there]
                 reach = blas.dtrsm(1.0, self.own[number], self.border[number], lower=1, trans_a=1)
                 z[:k, k:] = -reach @ z[k:, k:]
                 z[k:, :k] = z[:k, k:].T
                 z[:k, :k] -= reach @ z[k:, :k]
         return flat[layout.target].reshape(-1, 3, 3)
+
+
+def _runs(places: Index) -> list[tuple[slice, slice]]:
+    """Rising places as pieces without a gap: where each lies among them, and where in the parent; three rows a node."""
+    starts = np.flatnonzero(np.diff(places, prepend=-2) != 1)
+    ends = np.append(starts[1:], len(places))[: len(starts)]
+    return [(slice(3 * a, 3 * b), slice(3 * places[a], 3 * places[a] + 3 * (b - a)))
+            for a, b in zip(starts.tolist(), ends.tolist(), strict=True)]
 
 
 def _triple(nodes: Index) -> Index:

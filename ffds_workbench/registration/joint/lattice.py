@@ -105,10 +105,10 @@ class Lattices:
         return len(self.face_of_control)
 
     def rows(self, face: int, uv: Array, du: int = 0, dv: int = 0) -> tuple[Index, Array]:
-        """Control points and weights that give d, or a derivative in (u, v), at points of a face: (n, 16) each."""
+        """Spans (n,), and the weights (n, 16) of their control points that give d or a derivative at (u, v)."""
         span, local = self.faces[face].locate(uv)
         scale = self.step[span, 0] ** -du * self.step[span, 1] ** -dv
-        return self.controls[span], products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
+        return span, products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
 
     def spline(self, face: int, control_points: Array) -> SplineSurface:
         """The displacement of one face, (controls, 3) in mm, as a spline of its own."""

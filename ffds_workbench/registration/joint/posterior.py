@@ -2,8 +2,10 @@
 """The covariance of the control points, with priors that are as wide as the scan shows them to have to be."""
 from __future__ import annotations
 
+import numpy as np
+
 from ..splines import Array
-from .assembly import border_equations, data_equations, evenly_bent, shape_equations
+from .assembly import add_borders, add_data, evenly_bent, shape_equations
 from .boundary import find_borders
 from .cholesky import FrontCholesky
 from .problem import Problem
@@ -24,16 +26,17 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     """
     assert state.factor is not None and state.strained is not None
     inverse = state.factor.inverse_blocks()
-    prior = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained).blocks
-    told = 3 * problem.lattices.count - float((inverse * prior).sum())
+    equations = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained)
+    told = 3 * problem.lattices.count - float(inverse.ravel() @ equations.blocks.ravel())
     ratio = paid(problem, state) / max(told, 1.0)
     if ratio < _SAME:
         return inverse
-    data = data_equations(problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
+    np.divide(equations.blocks, ratio, out=equations.blocks)
+    add_data(equations, problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
     borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                            problem.statistics.noise)
-    data += border_equations(problem, borders)
-    return FrontCholesky(problem.pattern.layout, data.blocks + prior / ratio).inverse_blocks()
+    add_borders(equations, problem, borders)
+    return FrontCholesky(problem.pattern.layout, equations.blocks).inverse_blocks()
 
 
 def paid(problem: Problem, state: State) -> float:

@@ -44,9 +44,8 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    coupled : (size,) constant rows on the pattern, the same for x, y and z
-    constant : (5, size, 3, 3) these with the rows of smooth edges, and those that have a weight of their own: of
-        bending, of the distance of opposite skins in all directions and of its part along the normal, of sharp edges
+    constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending, of
+        the distance of opposite skins in all directions and of its part along the normal, of sharp edges
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -63,7 +62,6 @@ class Problem:
     stiffness: Stiffness
     couplings: Couplings
     pattern: Pattern
-    coupled: Array
     constant: Array
     sides: EdgeSides
     margin: Array
@@ -115,12 +113,12 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
-    scalar = pattern.from_scalar(couplings.scalar)
-    constant = np.stack([_same_for_all(scalar) + pattern.from_vector(couplings.smooth), _bending(pattern, stiffness),
-                         _same_for_all(pattern.from_scalar(couplings.shear)), pattern.from_vector(couplings.thickness),
+    constant = np.stack([_same_for_all(pattern.from_scalar(couplings.scalar)) + pattern.from_vector(couplings.smooth),
+                         _bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
+                         pattern.from_vector(couplings.thickness),
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
-                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, scalar, constant,
+                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
                    edge_sides(couplings.edges, lattices, cells, distance),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
 

@@ -19,13 +19,15 @@ class Samples:
     Attributes
     ----------
     face : (n,)
-    controls : (n, 16) control points
+    span : (n,)
+    controls : (n, 16) control points of the spans
     weights : (3, n, 16) weights that give d, d_u and d_v
     nominal : (3, n, 3) S₀, S₀_u and S₀_v in mm
     outward : (n,) ±1
     """
 
     face: Index
+    span: Index
     controls: Index
     weights: Array
     nominal: Array
@@ -54,13 +56,14 @@ class Samples:
         return csr_matrix((self.weights[order].ravel(), self.controls.ravel(), start), shape=(len(self), count))
 
     def take(self, which: Index) -> Samples:
-        return Samples(self.face[which], self.controls[which], self.weights[:, which], self.nominal[:, which],
-                       self.outward[which])
+        return Samples(self.face[which], self.span[which], self.controls[which], self.weights[:, which],
+                       self.nominal[:, which], self.outward[which])
 
 
 def concatenate(first: Samples, second: Samples) -> Samples:
     """Both, one after the other."""
-    return Samples(np.concatenate([first.face, second.face]), np.concatenate([first.controls, second.controls]),
+    return Samples(np.concatenate([first.face, second.face]), np.concatenate([first.span, second.span]),
+                   np.concatenate([first.controls, second.controls]),
                    np.concatenate([first.weights, second.weights], axis=1),
                    np.concatenate([first.nominal, second.nominal], axis=1),
                    np.concatenate([first.outward, second.outward]))
@@ -69,17 +72,17 @@ def concatenate(first: Samples, second: Samples) -> Samples:
 def sample(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> Samples:
     """Places at (u, v) (n, 2) on faces (n,), in the order given."""
     n = len(face)
-    controls, weights = np.zeros((n, 16), dtype=np.intp), np.zeros((3, n, 16))
+    span, weights = np.zeros(n, dtype=np.intp), np.zeros((3, n, 16))
     nominal, outward = np.zeros((3, n, 3)), np.zeros(n)
     order = np.argsort(face, kind="stable")
     for index in np.unique(face):
         at = order[np.searchsorted(face[order], index) : np.searchsorted(face[order], index, side="right")]
         surface = faces[index].surface
         for k, (du, dv) in enumerate(((0, 0), (1, 0), (0, 1))):
-            controls[at], weights[k, at] = lattices.rows(index, uv[at], du, dv)
+            span[at], weights[k, at] = lattices.rows(index, uv[at], du, dv)
             nominal[k, at] = surface.derivative(du, dv)(uv[at])
         outward[at] = faces[index].outward
-    return Samples(np.asarray(face, dtype=np.intp), controls, weights, nominal, outward)
+    return Samples(np.asarray(face, dtype=np.intp), span, lattices.controls[span], weights, nominal, outward)
 
 
 def _unit(vectors: Array) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import RefusedError
 from ..splines import Array
-from .assembly import border_equations, data_equations, shape_equations, strain_blocks
+from .assembly import add_borders, add_data, shape_equations, strain_blocks
 from .boundary import find_borders, near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
@@ -38,6 +38,8 @@ _HARDLY_MOVES = 0.1
 _HARDLY_TURNS = 0.2
 """Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
 so far that the steps would go astray."""
+_SOFTER = 0.03
+"""A matrix with this share of the bending is too far from one with all of it to be solved with that one's factor."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -90,7 +92,7 @@ def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State) -> State:
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    state = replace(state, nearest=None)
+    state = replace(state, nearest=None if stage.all_points else state.nearest)
     if stage.soft:
         near = state.near if len(state.near) else near_edges(problem.scan, problem.couplings.edges, problem.sides,
                                                              state.control_points)
@@ -118,14 +120,16 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     if strained is None or turned > _HARDLY_TURNS:
         strained, turned = strain_blocks(problem, state.control_points), 0.0
     equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained)
-    equations += data_equations(problem, jet, values)
+    add_data(equations, problem, jet, values)
     if stage.soft:
         borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)
-        equations += border_equations(problem, borders)
-    step, factor = solve(problem.pattern, equations.blocks, equations.right, state.factor)
+        add_borders(equations, problem, borders)
+    near = state.factor if stage.bending > _SOFTER * state.stiff else None
+    step, factor = solve(problem.pattern, equations.blocks, equations.right, near)
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
-    return replace(state, control_points=state.control_points + step, factor=factor, values=values, noise=values.noise,
+    return replace(state, control_points=state.control_points + step, factor=factor,
+                   stiff=stage.bending if factor is not near else state.stiff, values=values, noise=values.noise,
                    nearest=found.nearest, strained=strained, turned=turned + last_step, last_step=last_step,
                    iterations=state.iterations + 1)

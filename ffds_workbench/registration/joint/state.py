@@ -39,6 +39,7 @@ class State:
     strained : `strain_blocks` of a shape near by
     turned : how far the shape has moved since, in mm
     factor : of an earlier normal matrix; after the last stage of one with all data
+    stiff : the multiple of the bending weight in that matrix
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
     unsure : how far the whole part may be off in mm, because the scan may show the other skin of a sheet
@@ -55,6 +56,7 @@ class State:
     strained: Array | None = None
     turned: float = 0.0
     factor: FrontCholesky | None = None
+    stiff: float = 0.0
     last_step: float = np.inf
     iterations: int = 0
     unsure: float = 0.0

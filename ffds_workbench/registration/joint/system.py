@@ -46,9 +46,13 @@ class Pattern:
         """Where the blocks (row, column) stand in the pattern."""
         return np.searchsorted(self._keys, rows * self.count + columns)
 
+    def between(self, spans: Index | slice) -> Index:
+        """Where the blocks of the control points of spans stand in the pattern: (n, 256)."""
+        return self.span_position.reshape(-1, 256)[spans]
+
     def from_spans(self, blocks: Array, spans: Index | slice = slice(None)) -> Array:
         """Sum up symmetric 16 × 16 blocks of all spans or of the given ones: (spans, 16, 16) to (size,)."""
-        position = self.span_position.reshape(-1, 256)[spans].ravel()
+        position = self.between(spans).ravel()
         return np.bincount(position, weights=blocks.ravel(), minlength=self.size).astype(float, copy=False)
 
     def from_scalar(self, matrix: spmatrix) -> Array:
