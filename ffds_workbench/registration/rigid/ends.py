@@ -8,7 +8,7 @@ import numpy as np
 
 from ..splines import Array
 from .motions import apply
-from .rims import Rims, clear
+from .rims import Rims
 
 _STRIP = 3.0
 """Depth of the strip inside a rim that is looked at, in widths: the density is counted beyond the first width."""
@@ -18,6 +18,8 @@ _STRANGE = 0.1
 """Share of points beside the face, by those on it: from there on the wall at the rim is seen, and holds the scan."""
 _SATURATED = 0.8
 """A scan that ends farther inside than this share of the width ends for another reason."""
+_GRADES = 4
+"""Widths per doubling."""
 _FLOOR = 0.1
 """Uncertainty of a rim that no density takes away, in widths: rounded edges, mixed pixels."""
 
@@ -63,7 +65,7 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends
     nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth)[1]
     row = np.flatnonzero(nearest < len(rims.points))
     entry, row = np.concatenate([nearest[row], rims.partner[nearest[row]]]), np.concatenate([row, row])
-    chosen = clear(rims, depth)[entry]
+    chosen = rims.clear(depth)[entry]
     chosen[len(row) // 2:] &= entry[len(row) // 2:] != entry[: len(row) // 2]
     row, entry = row[chosen], entry[chosen]
     offset = points[row] - rims.points[entry]
@@ -80,9 +82,11 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends
     return Ends(rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread[seen])
 
 
-def fewest_width(rims: Rims, density: float) -> float:
-    """Width in mm that holds enough points of a scan, of so many points per mm², to count its ends."""
-    return 2.0 * _FEWEST / (rims.length_of_stretch * max(density, 1e-12) * (_STRIP - 1.0))
+def width_of_ends(rims: Rims, density: float, least: float) -> float:
+    """Width in mm that holds enough points of a scan, of so many points per mm², to count its ends, and is not below
+    the ``least``; one of few, as the rims keep what they know of each."""
+    wanted = max(least, 2.0 * _FEWEST / (rims.length_of_stretch * max(density, 1e-12) * (_STRIP - 1.0)))
+    return float(rims.step * 2.0 ** (np.ceil(_GRADES * np.log2(wanted / rims.step)) / _GRADES))
 
 
 def _nothing() -> Ends:

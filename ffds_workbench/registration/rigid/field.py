@@ -64,8 +64,11 @@ class Field:
 
     def monomials(self, points: Array) -> Array:
         """(n, k) at points (n, 3)."""
-        x = (points - self.middle) / self.half
-        return np.stack([x[:, power].prod(axis=1) for power in self.powers], axis=1)
+        x = (points - self.middle).T / self.half
+        result = np.ones((len(self.powers), len(points)))
+        for number, power in enumerate(self.powers[1:], start=1):
+            result[number] = result[self.powers.index(power[:-1])] * x[power[-1]]
+        return result.T
 
     def strain(self, points: Array, tangents: Array) -> Array:
         """Rows (3n, 3k) of the strain ε₁₁, ε₂₂, √2 ε₁₂ in tangent planes with frames (n, 2, 3), to first order."""

@@ -58,10 +58,14 @@ def refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[
     if is_rough(target, sketch):
         pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
         return pose, facing_normals(light, apply(pose, sketch.points))
-    piece = np.where(sketch.piece < len(signs), sketch.piece, 0)
-    normals = signs[piece][:, None] * sketch.normals
+    normals = outward(sketch, signs)
     pose = refine(light, sketch.points, pose, (gate,), 12, normals)
     return pose, normals @ pose[:3, :3].T
+
+
+def outward(sketch: Sketch, signs: Array) -> Array:
+    """Normals of the sketch, scan coordinates, with the signs (p,) of the largest pieces; (n, 3)."""
+    return signs[np.where(sketch.piece < len(signs), sketch.piece, 0)][:, None] * sketch.normals
 
 
 def mended(target: Target, sketch: Sketch, pose: Array, normals: Array, near: float) -> tuple[Array, float]:

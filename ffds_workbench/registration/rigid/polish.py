@@ -9,18 +9,25 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .ends import Ends, fewest_width, find_ends
+from .ends import Ends, find_ends, width_of_ends
 from .fine import gauss_newton, refine, tukey
 from .motions import apply, step
+from .search import field_of
 from .sketch import Sketch, thin
 from .smooth import Outline, settle
-from .target import Target
+from .target import Target, once_for_target
 from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
-_POINTS, _ON_FACES, _NEAR_RIMS = 2_500, 10_000, 30_000
-"""Points for the pose of a deformed part; of one that is not, for heights and for ends."""
+_FEW = 500
+"""Points that a pose is brought nearer with."""
+_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 4_500, 200_000, 30_000
+"""Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
+_LEAST_HELD = 1e-4
+"""Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
+_PATCH = 60
+"""Of the even samples, some forty to each of them: the surface around a point, a sixth of the part across."""
 _CLOSE = 0.02
 """Gate for a part that is not deformed, as a share of its size."""
 _BLURRED, _APART = 1.5, 3.0
@@ -53,14 +60,19 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage
         gate = max(0.02 * target.size, 3.0 * sketch.noise)
         return refine(target, sketch.pool[thin(sketch.pool, _POINTS)], pose, (2.0 * gate, gate), 15)
     if not is_deformed(target, sketch, pose, normals):
-        return _fit_faces_and_ends(target, sketch, pose, coverage)
+        return polish_rigid(target, sketch, pose, coverage)
+    return polish_deformed(target, sketch, pose, normals, coverage)
+
+
+def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float) -> Array:
+    """The pose that fits all of a deformed part best."""
     reach = _WIDE * target.size
-    points = sketch.pool[thin(sketch.pool, _POINTS)]
-    outward = (normals @ pose[:3, :3])[cKDTree(sketch.points).query(points)[1]]
-    pose = refine(target, points, pose, (reach,), 8, outward)
+    outward = normals @ pose[:3, :3]
+    few = slice(None, None, 1 + len(outward) // _FEW)
+    pose = refine(target, sketch.points[few], pose, (reach,), 8, outward[few])
     outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
                       max(sketch.noise, _FINEST * target.size))
-    return settle(target, points, pose, outward, reach, outline)
+    return settle(target, sketch.points, pose, outward, reach, outline)
 
 
 def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:
@@ -71,23 +83,56 @@ def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> 
     return not len(height) or bool(np.quantile(np.abs(height), 0.8) >= max(_DEFORMED * target.size, 3.0 * sketch.noise))
 
 
-def _fit_faces_and_ends(target: Target, sketch: Sketch, pose: Array, coverage: float) -> Array:
+def polish_rigid(target: Target, sketch: Sketch, pose: Array, coverage: float) -> Array:
     """Least-squares pose of points on the faces and of the scan's ends on the rims, in two rounds."""
-    points = sketch.pool[:_ON_FACES]
-    pose = refine(target, points[::4], pose, (_CLOSE * target.size,), 6)
+    few = sketch.points[:: 1 + len(sketch.points) // _FEW]
+    pose = refine(target, few, pose, (_CLOSE * target.size,), _STEPS)
+    points = sketch.pool[_telling(target, apply(pose, sketch.pool), _ON_FACES)]
+    looked_at = sketch.scan[:: 1 + len(sketch.scan) // _LOOKED_AT]
     noise = max(sketch.noise, _FINEST * target.size)
-    density = len(sketch.scan) / (coverage * float(target.samples.area.sum()))
-    narrow = max(_BLURRED * noise, fewest_width(target.rims, density))
+    density = len(looked_at) / (coverage * float(target.samples.area.sum()))
+    narrow = width_of_ends(target.rims, density, _BLURRED * noise)
+    wide = width_of_ends(target.rims, density, _FIRST_WIDTH * target.size)
     chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
-    points, share = points[chosen], len(points) / len(sketch.scan)
-    near = sketch.scan[target.rims.near(apply(pose, sketch.scan))]
-    for width, most in ((max(_FIRST_WIDTH * target.size, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
+    points, share = points[chosen], len(sketch.pool) / len(looked_at)
+    near = looked_at[target.rims.near(looked_at, pose)]
+    for width, most in ((max(wide, narrow), _NEAR_RIMS // 4), (narrow, _NEAR_RIMS)):
         some = near[:: 1 + len(near) // most]
         ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
         # each stands for as many points of the scan as one on a face does
         weight = ends.weight * noise**2 * share * len(near) / max(len(some), 1)
         pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
     return pose
+
+
+def _telling(target: Target, points: Array, count: int) -> NDArray[np.intp]:
+    """Indices of at most ``count`` points, the more the more the surface around them tells of the pose.
+
+    Its leverage in the least squares says that: small faces at the ends of a part hold directions that the large ones
+    leave free, and of points drawn evenly hardly any lie on them. The mean over a patch much wider than the noise is
+    taken, as a choice by the own place of a point would prefer those that the noise has moved one way.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates
+    """
+    field = field_of(target)
+    nearest = field(points, None)
+    normal = field.normals[nearest]
+    arm = (points - target.centre) * (2.0 / target.size)
+    row = np.concatenate([np.cross(arm, normal), normal], axis=1)
+    inverse = np.linalg.inv(row.T @ row + _LEAST_HELD * len(row) * np.eye(6))
+    count_of = np.bincount(nearest, minlength=len(field.points))
+    leverage = np.bincount(nearest, np.einsum("ni,ni->n", row @ inverse, row), len(count_of)) / np.maximum(count_of, 1)
+    share = np.cumsum(leverage[_patches(target)].mean(axis=1)[nearest])
+    return np.flatnonzero(np.diff(np.floor(share * (count / share[-1])), prepend=0.0) > 0.0)
+
+
+@once_for_target
+def _patches(target: Target) -> NDArray[np.intp]:
+    """The even samples around each of them; (m, k)."""
+    points = target.even.points
+    return np.asarray(cKDTree(points).query(points, k=min(_PATCH, len(points)))[1]).reshape(len(points), -1)
 
 
 def _on_one_face(target: Target, points: Array, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -1,46 +1,96 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pose of a clean scan of an undeformed part that lies nearby: few points, few starts, no doubt allowed."""
+"""The pose of a clean scan that lies nearby: few points, few starts, no doubt allowed."""
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..splines import Array
 from .alignment import Alignment
-from .hypothesis import TURNED, Verified, best_of, mended, refined, turned_on
+from .fine import refine
+from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
 from .motions import motion
-from .polish import polish
+from .polish import polish_deformed, polish_rigid
 from .proposals import QUICK, propose
-from .sketch import sketch_of
+from .sketch import Sketch, sketch_of
 from .starts import turns_up_to
 from .target import Target
 from .verdict import FAILS, answer_of
 from .verify import examine, is_rough
 
 _FEWEST = 50
-_ROTATIONS, _TURN, _POINTS, _POOL = 12, 0.5, 1000, 16_000
+_ROTATIONS, _TURN, _POOL, _POINTS, _THIRD = 12, 0.5, 24_000, 1_500, 3
+_GATE, _STEPS = 0.08, 8
+"""Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
+_CLEARLY_BETTER, _CERTAIN = 0.65, 0.78
+"""Where a smooth deformation is taken back: misfit of the right side over that of the other one, at most 0.55 where the
+answer was right, and certainty of an answer."""
 
 
 def quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
-    """The pose of a clean scan of an undeformed part that lies within some 30° of it; None if none is clearly right."""
-    sketch = sketch_of(scan, generator, _POINTS, _POOL, 1)
+    """The pose of a clean scan that lies within some 30° of it; None if none is clearly right."""
+    whole = sketch_of(scan, generator, _POINTS, _POOL, 1)
+    sketch = whole.every(_THIRD)
     if len(sketch.points) < _FEWEST or is_rough(target, sketch):
         return None
     centre = sketch.points.mean(axis=0)
     rotations = turns_up_to(_TURN, _ROTATIONS)
     candidates = propose(target, sketch, motion(rotations, target.centre - rotations @ centre), QUICK, generator)
-    clear: list[Verified] = []
     # a sheet is seen from one side, and only its rims tell which
-    for signs in (candidates.signs[0], -candidates.signs[0]):
-        pose, normals = refined(target, sketch, candidates.poses[0], signs)
-        normals, turned = mended(target, sketch, pose, normals, 4.0 * sketch.noise)
-        evidence = examine(target.light, sketch, pose, normals, None, rounds=0)
+    sides = [_refined(target, sketch, candidates.poses[0], signs)
+             for signs in (candidates.signs[0], -candidates.signs[0])]
+    return _undeformed(target, sketch, sides, scale) or _deformed(target, sketch, whole, sides, scale)
+
+
+@dataclass(frozen=True)
+class _Side:
+    """A pose (4, 4), the signs (p,) of the pieces' normals, and the outward normals (n, 3) in the model's frame."""
+
+    pose: Array
+    signs: Array
+    normals: Array
+
+
+def _refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> _Side:
+    """The pose after a few steps towards the side that the signs tell."""
+    normals = outward(sketch, signs)
+    pose = refine(target.light, sketch.points[::2], pose, (_GATE * target.size,), _STEPS, normals[::2])
+    return _Side(pose, signs, normals @ pose[:3, :3].T)
+
+
+def _undeformed(target: Target, sketch: Sketch, sides: Sequence[_Side], scale: float) -> Alignment | None:
+    """The answer of a pose at which the scan lies on the part as it is."""
+    clear: list[Verified] = []
+    for side in sides:
+        normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
+        evidence = examine(target.light, sketch, side.pose, normals, None, rounds=0)
         if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS and turned < TURNED:
-            clear.append(Verified(pose, evidence, normals))
+            clear.append(Verified(side.pose, evidence, normals))
     if not clear:
         return None
     best = best_of(clear, "fine", target, sketch)
-    pose = polish(target, sketch, best.pose, best.normals, best.evidence.coverage)
+    pose = polish_rigid(target, sketch, best.pose, best.evidence.coverage)
     return answer_of(target, sketch, None, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
+
+
+def _deformed(target: Target, sketch: Sketch, whole: Sketch, sides: Sequence[_Side], scale: float) -> Alignment | None:
+    """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
+    misfits = [examine(target.light, sketch, side.pose, side.normals, None) for side in sides]
+    order = np.argsort([evidence.misfit for evidence in misfits])
+    side, evidence = sides[order[0]], misfits[order[0]]
+    if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * misfits[order[1]].misfit:
+        return None
+    pose = polish_deformed(target, whole, side.pose, outward(whole, side.signs) @ side.pose[:3, :3].T,
+                           evidence.coverage)
+    normals = outward(sketch, side.signs) @ pose[:3, :3].T
+    if evidence.certainty < _CERTAIN:
+        evidence = examine(target.light, sketch, pose, normals, None)
+    if evidence.certainty < _CERTAIN:
+        return None
+    best = Verified(pose, evidence, normals)
+    return answer_of(target, sketch, None, best, [best], scale)

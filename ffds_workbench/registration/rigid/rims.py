@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from ..splines import Array
 from .trimmed import inside_trims
 
 _MOST_PER_FACE = 1500
-_VOXELS = 80
+_VOXELS = 60
 """Of the grid that tells which points lie near rims, along the part."""
 _STRETCH = 8
 """Points of a stretch of rim, half the spacing of the part's samples apart."""
@@ -71,6 +71,16 @@ class Rims:
         found = other & beside
         return np.where(found.any(axis=1), near[np.arange(len(near)), found.argmax(axis=1)], np.arange(len(near)))
 
+    @cached_property
+    def _clear(self) -> dict[float, NDArray[np.bool_]]:
+        return {}
+
+    def clear(self, depth: float) -> NDArray[np.bool_]:
+        """At which points no other one is nearer to what lies ``depth`` mm inside the face; (n,)."""
+        if depth not in self._clear:
+            self._clear[depth] = self.tree.query(self.points - depth * self.outwards)[0] > 0.9 * depth
+        return self._clear[depth]
+
     @property
     def length_of_stretch(self) -> float:
         """In mm."""
@@ -83,19 +93,21 @@ class Rims:
 
     @cached_property
     def _beside(self) -> NDArray[np.bool_]:
-        """Which voxels touch one that holds a point; (_VOXELS + 4,) * 3."""
+        """Which voxels touch one that holds a point; flat."""
         held = np.zeros((_VOXELS + 4,) * 3, dtype=bool)
-        held[tuple(self._voxel(self.points).T)] = True
-        return np.asarray(binary_dilation(held, np.ones((3, 3, 3))))
+        held.ravel()[self._voxel(self.points, np.eye(4))] = True
+        return np.asarray(binary_dilation(held, np.ones((3, 3, 3)))).ravel()
 
-    def _voxel(self, points: Array) -> NDArray[np.int32]:
+    def _voxel(self, points: Array, pose: Array) -> NDArray[np.int32]:
+        """Number of the voxel that a pose (4, 4) moves each point (n, 3) into."""
         low = self.points.min(axis=0) - 2.0 * self.reach
-        return np.clip((points - low) / self.reach, 0, _VOXELS + 3).astype(np.int32)
+        place = (pose[:3, :3] / self.reach) @ points.T + ((pose[:3, 3] - low) / self.reach)[:, None]
+        x, y, z = np.clip(place, 0, _VOXELS + 3, out=place).astype(np.int32)
+        return (x * (_VOXELS + 4) + y) * (_VOXELS + 4) + z
 
-    def near(self, points: Array) -> NDArray[np.intp]:
-        """Indices of the points that may lie near a rim, without a search for the nearest."""
-        x, y, z = self._voxel(points).T
-        return np.flatnonzero(self._beside[x, y, z])
+    def near(self, points: Array, pose: Array) -> NDArray[np.intp]:
+        """Indices of the points (n, 3) that a pose (4, 4) moves near a rim, without a search for the nearest."""
+        return np.flatnonzero(self._beside[self._voxel(points, pose)])
 
     def overshoot(self, points: Array, face: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
         """How far points stick out of the face they are matched with, beyond its rim.
@@ -119,12 +131,6 @@ class Rims:
         outwards = self.outwards[index]
         beyond = np.einsum("ni,ni->n", points - self.points[index], outwards)
         return np.where(near & (self.face[index] == face), np.maximum(beyond, 0.0), 0.0), outwards
-
-
-@lru_cache(maxsize=8)
-def clear(rims: Rims, depth: float) -> NDArray[np.bool_]:
-    """At which points of the rims no other one is nearer to what lies ``depth`` mm inside the face; (n,)."""
-    return np.asarray(rims.tree.query(rims.points - depth * rims.outwards)[0] > 0.9 * depth)
 
 
 def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacing: float) -> Rims:

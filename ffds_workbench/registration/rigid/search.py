@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import product
 
 import numpy as np
@@ -13,10 +12,12 @@ from scipy.spatial import cKDTree
 
 from ..splines import Array
 from .motions import angle, apply, shift, step
-from .target import Target
+from .target import Target, once_for_target
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 _SAME_SIDE = 0.35
+_RESOLUTION, _MARGIN = 40, 0.2
+"""Voxels of the look-up table along its longest side, and share of the part's size that it reaches beyond the part."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +55,12 @@ class NearestField:
         return self.nearest.ravel()[flat]
 
 
-@lru_cache(maxsize=4)
-def field_of(target: Target, resolution: int = 40, margin: float = 0.2) -> NearestField:
-    """``resolution`` voxels along the longest side of the box, ``margin`` of the size added all round."""
+@once_for_target
+def field_of(target: Target) -> NearestField:
+    """The look-up table of a part and its surroundings."""
     points, normals = target.even.points, target.even.normals
-    low, high = points.min(axis=0) - margin * target.size, points.max(axis=0) + margin * target.size
-    voxel = float((high - low).max()) / resolution
+    low, high = points.min(axis=0) - _MARGIN * target.size, points.max(axis=0) + _MARGIN * target.size
+    voxel = float((high - low).max()) / _RESOLUTION
     axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
     tables = []

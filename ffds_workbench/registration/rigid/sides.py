@@ -34,18 +34,17 @@ def turn_to_one_side(points: Array, normals: Array, neighbours: int = 9) -> tupl
     """
     start, end, agrees = _links(points, normals, neighbours)
     vote = agrees * np.abs(agrees) ** 3
+    start, end, vote = np.concatenate([start, end]), np.concatenate([end, start]), np.concatenate([vote, vote])
     sign, cluster, count = np.ones(len(points)), np.arange(len(points)), len(points)
     while True:
-        one, other = cluster[start], cluster[end]
-        apart = one != other
-        if not apart.any():
+        start, end, vote = _summed(start, end, vote, count)
+        if not len(start):
             break
-        said = (vote * sign[start] * sign[end])[apart]
-        one, other = np.minimum(one, other)[apart], np.maximum(one, other)[apart]
-        votes = coo_matrix((said, (one, other)), shape=(count, count)).tocsr()
-        head, turned = _merged((votes + votes.T).tocsr())
-        sign *= turned[cluster]
+        head, turned = _merged(start, end, vote, count)
         heads, head = np.unique(head, return_inverse=True)
+        vote = vote * turned[start] * turned[end]
+        start, end = head[start], head[end]
+        sign *= turned[cluster]
         cluster, count = head[cluster], len(heads)
     rank = np.empty(count, dtype=np.intp)
     rank[np.argsort(-np.bincount(cluster, minlength=count))] = np.arange(count)
@@ -70,20 +69,30 @@ def _links(points: Array, normals: Array, neighbours: int) -> tuple[NDArray[np.i
     return start[linked], end[linked], agrees[linked]
 
 
-def _merged(votes: coo_matrix) -> tuple[NDArray[np.intp], Array]:
+def _summed(start: NDArray[np.intp], end: NDArray[np.intp], vote: Array, count: int,
+            ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """The votes between each two of ``count`` clusters added up, in the order of ``start``; where any are left."""
+    apart = start != end
+    votes = coo_matrix((vote[apart], (start[apart], end[apart])), shape=(count, count)).tocsr()
+    votes.sort_indices()
+    told = votes.data != 0.0
+    start = np.repeat(np.arange(count), np.diff(votes.indptr))
+    return start[told], votes.indices[told].astype(np.intp), votes.data[told]
+
+
+def _merged(start: NDArray[np.intp], end: NDArray[np.intp], vote: Array, count: int) -> tuple[NDArray[np.intp], Array]:
     """The head of the group that each cluster joins by its strongest vote, and ±1 that turns it to the head's side.
 
     Two that chose each other are the root of a tree of choices, headed by the lower number; ties go to the lower
     number as well, so that there is no longer cycle.
     """
-    count = votes.shape[0]
-    strength = abs(votes)
-    strength.sort_indices()
-    head = np.asarray(strength.argmax(axis=1)).ravel()
-    chosen = np.asarray(votes[np.arange(count), head]).ravel()
-    alone = chosen == 0.0
-    head[alone] = np.flatnonzero(alone)
-    turned = np.where(chosen < 0.0, -1.0, 1.0)
+    strength = np.abs(vote)
+    row = np.flatnonzero(np.diff(start, prepend=-1))
+    most = np.repeat(np.maximum.reduceat(strength, row), np.diff(row, append=len(start)))
+    strongest = np.flatnonzero(strength == most)
+    strongest = strongest[np.diff(start[strongest], prepend=-1) > 0]
+    head, turned = np.arange(count), np.ones(count)
+    head[start[strongest]], turned[start[strongest]] = end[strongest], np.sign(vote[strongest])
     first = (head[head] == np.arange(count)) & (head > np.arange(count))
     head[first], turned[first] = np.flatnonzero(first), 1.0
     while (head[head] != head).any():

@@ -5,7 +5,7 @@ The normals of one connected piece of surface are turned to one side; which side
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,14 @@ _POINTS, _FINER = 2_000, 4
 _NEIGHBOURS = (14, 40)
 _ROUGH = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
-_SPARSE, _ALONE = 4.0, 2.0
+_SPARSE, _ALONE = 4.0, 1.6
 """A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
 its neighbours' own are."""
+_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
+"""Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
+over it from which a point may be stray."""
+_DENSE = 100
+"""Cells per point up to which a table of all cells is faster than to sort the points."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,10 @@ class Sketch:
     noise: float
     pool: Array
     scan: Array
+
+    def every(self, step: int) -> Sketch:
+        """The same of fewer points."""
+        return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
 
 
 @dataclass(frozen=True)
@@ -77,15 +86,15 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     finer : so many times as many points tell the sides of the surface: far ones link what is not one surface
     """
     pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
-    tree = cKDTree(pool)
-    chosen = thin(pool, finer * count)
-    chosen = chosen[_among_others(tree, pool[chosen])]
-    points = pool[chosen]
-    for neighbours in _NEIGHBOURS:
-        distance, index = tree.query(points, k=min(neighbours, len(pool)))
+    tree = cKDTree(pool, balanced_tree=False, compact_nodes=False)
+    points = pool[thin(pool, finer * count)]
+    distance, index = tree.query(points, k=min(_NEIGHBOURS[0], len(pool)))
+    among = _among_others(tree, distance, index)
+    points, distance, index = points[among], distance[among], index[among]
+    normals, roughness = _local_planes(pool[index])
+    if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) > _ROUGH:
+        index = tree.query(points, k=min(_NEIGHBOURS[1], len(pool)))[1]
         normals, roughness = _local_planes(pool[index])
-        if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) < _ROUGH:
-            break
     normals, piece = turn_to_one_side(points, normals)
     even = thin(points, count)
     return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool, scan)
@@ -100,9 +109,7 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
     chosen = np.arange(len(points))
     probe = high / np.sqrt(count)
     for _ in range(12):
-        cell = np.floor(base / probe).astype(np.int64)
-        key = (cell[:, 0] * 2_097_152 + cell[:, 1]) * 2_097_152 + cell[:, 2]
-        chosen = np.unique(key, return_index=True)[1]
+        chosen = _first_of_each(np.floor(base / probe).astype(np.int64))
         if 0.85 * count <= len(chosen) <= 1.15 * count:
             break
         low, high = (probe, high) if len(chosen) > count else (low, probe)
@@ -112,7 +119,18 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
     return chosen
 
 
-def _among_others(tree: cKDTree, points: Array, neighbours: int = 9) -> NDArray[np.bool_]:
+def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
+    """Index of a point in each of the cells (n, 3), numbered from 0, that hold any."""
+    shape = cell.max(axis=0) + 1
+    key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
+    if shape.prod() > _DENSE * len(cell):
+        return np.unique(key, return_index=True)[1]
+    first = np.full(shape.prod(), -1, dtype=np.intp)
+    first[key] = np.arange(len(cell))
+    return first[first >= 0]
+
+
+def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Which points lie as dense as the scan does in the median, and as dense as their own neighbours do.
 
     The second is the local outlier factor (M. Breunig et al., LOF, 2000) in short: a stray point just above a surface
@@ -121,15 +139,16 @@ def _among_others(tree: cKDTree, points: Array, neighbours: int = 9) -> NDArray[
     Parameters
     ----------
     tree : of the scan
-    points : (n, 3), some of its points: even ones, among which strays are far more frequent than in the scan
+    distance, index : (n, k) in mm, of the neighbours of some of its points: even ones, among which strays are far more
+        frequent than in the scan
     """
-    neighbours = min(neighbours, tree.n)
-    usual = max(float(np.median(tree.query(tree.data[:1000], k=neighbours)[0][:, -1])), 1e-9)
-    distance, index = tree.query(points, k=neighbours)
-    among = distance[:, -1] < _SPARSE * usual
-    doubtful = np.flatnonzero(among & (distance[:, -1] > usual))
-    theirs = tree.query(tree.data[index[doubtful]], k=neighbours)[0][:, :, -1]
-    among[doubtful] = distance[doubtful, -1] < _ALONE * np.median(theirs, axis=1)
+    k = min(_OTHERS, distance.shape[1])
+    usual = max(float(np.median(tree.query(tree.data[:_USUAL], k=k)[0][:, -1])), 1e-9)
+    farthest = distance[:, k - 1]
+    among = farthest < _SPARSE * usual
+    doubtful = np.flatnonzero(among & (farthest > _THIN * usual))
+    theirs = tree.query(tree.data[index[doubtful, 1:k:_EVERY]], k=k)[0][:, :, -1]
+    among[doubtful] = farthest[doubtful] < _ALONE * np.median(theirs, axis=1)
     return among
 
 

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..splines import Array
-from .ends import fewest_width, find_ends
+from .ends import find_ends, width_of_ends
 from .field import SOFT, STIFF, Field, Freedom, fit_field
 from .fine import gauss_newton, tukey
 from .motions import angle, apply, motion, shift, step
@@ -27,7 +27,11 @@ of the noise; and height, as a share of the width, up to which a deformed part i
 _FOR_ENDS, _END_GATE = 30.0, 0.2
 """Ends weigh more than their own uncertainty gives them, as heights are off by what the polynomials cannot follow; and
 the least cut-off in mm for them, as each is counted from few points."""
-_SLIDES = 4
+_ON = 0.008
+"""Height, as a share of the part's size, up to which a point lies on it."""
+_SLIDES, _STEPS = 1, 3
+_ROUGHLY, _MORE = 500, 2
+"""Points for the first match, and rounds of a match that starts from the last one."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ class Match:
 
 
 def match(target: Target, points: Array, normals: Array, reach: float, rounds: int = ROUNDS, freedom: Freedom = STIFF,
-          ) -> Match:
+          start: Array | None = None) -> Match:
     """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
 
     Parameters
@@ -77,15 +81,17 @@ def match(target: Target, points: Array, normals: Array, reach: float, rounds: i
     reach : largest distance in mm
     rounds : 0 for no deformation
     freedom : of the deformation
+    start : (n, 3) where the points nearly lie without it, if known: the last rounds are enough then
     """
-    place, field = points, Field.still(points, target.size, freedom.degree)
+    place, field = points if start is None else start, Field.still(points, target.size, freedom.degree)
     for turn in range(rounds + 1):
         distance, nearest = target.nearest(place, normals, reach)
         height, normal = target.heights(place, nearest)
         if turn < rounds:
             wanted = height + np.einsum("ni,ni->n", normal, points - place)
             field = fit_field(points, normal, wanted, height, np.isfinite(distance), target.samples.tangents[nearest],
-                              _WIDEST * target.size * 0.5**turn, target.size, freedom)
+                              _WIDEST * target.size * 0.5**(turn if start is None else ROUNDS - rounds + turn),
+                              target.size, freedom)
             place = points - field(points)
     return Match(place, distance, nearest, height, normal, field)
 
@@ -104,9 +110,17 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
     reach : in mm
     outline : of the scan, scan coordinates
     """
-    for _ in range(iterations):
+    some = slice(None, None, 1 + len(points) // _ROUGHLY)
+    moved = apply(pose, points)
+    field = match(target, moved[some], normals[some] @ pose[:3, :3].T, reach, ROUNDS, SOFT).field
+    place = moved - field(moved)
+    for turn in range(iterations):
         moved = apply(pose, points)
-        found = match(target, moved, normals @ pose[:3, :3].T, reach, ROUNDS, SOFT)
+        found = match(target, moved, normals @ pose[:3, :3].T, reach, _MORE, SOFT, place)
+        place = found.points
+        if turn == 0:
+            turned = _far_side(target, found, normals @ pose[:3, :3].T, reach)
+            normals = np.where(turned[:, None], -normals, normals)
         spread = 1.4826 * float(np.median(np.abs(found.height)))
         sure = np.isfinite(found.distance) & (np.abs(found.height) < max(6.0 * spread, 2e-3 * target.size))
         if sure.sum() < 100:
@@ -123,23 +137,34 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
     return pose
 
 
+def _far_side(target: Target, found: Match, normals: Array, reach: float) -> NDArray[np.bool_]:
+    """Which points lie on the part if their normals, model coordinates, are turned round, and else do not; (n,)."""
+    near = _ON * target.size
+    turned = ~(np.isfinite(found.distance) & (np.abs(found.height) < near))
+    distance, nearest = target.nearest(found.points[turned], -normals[turned], reach)
+    turned[turned] = np.isfinite(distance) & (np.abs(target.heights(found.points[turned], nearest)[0]) < near)
+    return turned
+
+
 def _slid(target: Target, points: Array, nearest: NDArray[np.intp], outline: Outline) -> Array:
     """Foot points (n, 3) of points on their faces, after the rigid slide that brings the ends to the rims."""
-    width = max(_WIDTH * target.size, fewest_width(target.rims, len(outline.points) / outline.area),
-                _BLURRED * outline.noise)
+    width = width_of_ends(target.rims, len(outline.points) / outline.area,
+                          max(_WIDTH * target.size, _BLURRED * outline.noise))
     slide = np.eye(4)
     for _ in range(_SLIDES):
-        moved = apply(slide, points)
-        height, normal = target.heights(moved, nearest)
-        spread = max(1.4826 * float(np.median(np.abs(height))), 1e-6 * target.size)
         ends = find_ends(target.rims, apply(slide, outline.points), width, 4.0 * outline.noise + _OF_WIDTH * width)
-        gate = max(4.0 * 1.4826 * float(np.median(np.abs(ends.gap))), _END_GATE) if len(ends.gap) else _END_GATE
-        weight = np.concatenate([tukey(height, 4.0 * spread),
-                                 _FOR_ENDS * spread**2 * ends.weight * tukey(ends.gap, gate)])
-        update = gauss_newton(np.concatenate([moved, ends.places]) - target.centre,
-                              np.concatenate([normal, ends.outwards]), np.concatenate([height, ends.gap]), weight,
-                              target.size)
-        slide = step(update, target.centre) @ slide
+        for _ in range(_STEPS):
+            moved = apply(slide, points)
+            height, normal = target.heights(moved, nearest)
+            spread = max(1.4826 * float(np.median(np.abs(height))), 1e-6 * target.size)
+            gate = max(4.0 * 1.4826 * float(np.median(np.abs(ends.gap))), _END_GATE) if len(ends.gap) else _END_GATE
+            weight = np.concatenate([tukey(height, 4.0 * spread),
+                                     _FOR_ENDS * spread**2 * ends.weight * tukey(ends.gap, gate)])
+            update = gauss_newton(np.concatenate([moved, ends.places]) - target.centre,
+                                  np.concatenate([normal, ends.outwards]), np.concatenate([height, ends.gap]), weight,
+                                  target.size)
+            more = step(update, target.centre)
+            slide, ends = more @ slide, ends.moved(more)
     moved = apply(slide, points)
     height, normal = target.heights(moved, nearest)
     return moved - height[:, None] * normal

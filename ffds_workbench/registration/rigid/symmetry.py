@@ -7,7 +7,6 @@ into question, and where two principal moments agree, turns about the third axis
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -15,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from ..splines import Array
 from .fine import refine
 from .motions import angle, apply, even_rotations, motion, turn_name
-from .target import Target
+from .target import Target, once_for_target
 
 _EQUAL_MOMENTS = 0.04
 _ANGLES = 72
@@ -52,7 +51,7 @@ class Symmetry:
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
 
 
-@lru_cache(maxsize=4)
+@once_for_target
 def symmetry_of(target: Target) -> Symmetry:
     """Find the self-motions of a part."""
     samples, size = target.samples, target.size

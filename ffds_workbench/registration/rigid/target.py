@@ -6,9 +6,10 @@ fundamental form give the height over the face with an error of the third order 
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from .motions import even_directions
 from .rims import Rims, rims_of
 from .trimmed import inside_trims
 
+Result = TypeVar("Result")
 _SAMPLES = 24_000
 _COARSE = 2_500
 _VIEWS = 64
@@ -82,6 +84,11 @@ class Target:
     views: Array
     visible: NDArray[np.bool_]
     rims: Rims
+
+    @cached_property
+    def kept(self) -> dict[Any, Any]:
+        """What ``once_for_target`` keeps."""
+        return {}
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -194,6 +201,17 @@ class Target:
         some = np.flatnonzero(self._beside_rim[nearest])
         beyond[some], outwards[some] = self.rims.overshoot(points[some], self.samples.face[nearest[some]], gate)
         return beyond, outwards
+
+
+def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
+    """What follows from the model alone is computed for the first scan and kept for the next ones."""
+    @wraps(compute)
+    def kept(target: Target) -> Result:
+        if compute not in target.kept:
+            target.kept[compute] = compute(target)
+        result: Result = target.kept[compute]
+        return result
+    return kept
 
 
 def _workers(points: Array) -> int:

@@ -17,7 +17,8 @@ from .target import Target
 _NORMALS_AGREE = 0.6
 _ROUGH = 0.003
 """Noise above this share of the part's size hides sides and small features."""
-_MOST_VIEWS = 3
+_MOST_VIEWS, _AROUND = 3, 4
+"""Cameras; and points near a sample of which one has to face as it does: the nearest may be of a sheet's far side."""
 _PRICE = 6.0
 """What a deformation by the part's size takes off the score: 4 % that bend another part into this one take off 0.24."""
 _NEAR = 0.06
@@ -113,7 +114,7 @@ def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tup
         return 0.0, 1.0
     area_each = np.median(cKDTree(sketch.points).query(sketch.points[:500], k=2)[0][:, 1])
     reach = max(3.0 * float(area_each), 0.025 * target.size)
-    distance, index = cKDTree(points).query(samples.points, k=2, distance_upper_bound=reach)
+    distance, index = cKDTree(points).query(samples.points, k=_AROUND, distance_upper_bound=reach)
     padded = np.concatenate([normals, np.zeros((1, 3))])
     covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
     seen = np.zeros(len(covered), dtype=bool)
