@@ -22,6 +22,8 @@ from .samples import Samples, concatenate
 _REACH = 4.0
 _FARTHEST = 2.0
 """Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
+_HARDLY_MOVES = 0.2
+"""Movement in mm of the edges after which points keep their samples, which are farther apart."""
 _SHARP = 0.7
 _RANKS, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by what half a point takes of the density: sensors take points in rows,
@@ -95,24 +97,41 @@ def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places, distance: 
     return EdgeSides(signs, convex & (np.einsum("nx,nx->n", *normal) < _SHARP))
 
 
-def near_edges(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array) -> Array:
-    """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape: (n, 3)."""
+@dataclass(frozen=True)
+class NearEdges:
+    """Scan points near the sharp edges.
+
+    Attributes
+    ----------
+    points : (n, 3) in mm
+    row : (n,) the nearest edge sample
+    place : (samples, 3) where the sharp edges were when the points were looked for
+    """
+
+    points: Array
+    row: Index
+    place: Array
+
+
+def find_near_edges(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array,
+                    known: NearEdges | None) -> NearEdges:
+    """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape; those that are
+    ``known`` while the edges hardly move."""
+    sharp = np.flatnonzero(sides.sharp)
+    place = (edges.first.nominal[0] + edges.first.displacement(control_points))[sharp]
+    if known is not None and np.abs(place - known.place).max(initial=0.0) < _HARDLY_MOVES:
+        return known
     points = points[:: 1 + len(points) // _MOST_POINTS]
-    if not sides.sharp.any():
-        return points[:0]
-    place = edges.first.nominal[0] + edges.first.displacement(control_points)
-    distance = cKDTree(place[sides.sharp]).query(points, distance_upper_bound=1.5 * _REACH, workers=-1)[0]
-    return points[np.isfinite(distance)]
+    if not len(sharp):
+        return NearEdges(points[:0], sharp, place)
+    nearest = cKDTree(place).query(points, distance_upper_bound=_REACH, workers=-1)[1]
+    near = np.flatnonzero(nearest < len(sharp))
+    return NearEdges(points[near], sharp[nearest[near]], place)
 
 
-def find_borders(points: Array, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
-    """Visible borders at the current shape, from points (n, 3) near the edges (`near_edges`)."""
-    place = edges.first.nominal[0] + edges.first.displacement(control_points)
-    sharp = np.append(np.flatnonzero(sides.sharp), len(place))
-    row = (sharp[cKDTree(place[sharp[:-1]]).query(points, distance_upper_bound=_REACH, workers=-1)[1]]
-           if len(points) else np.zeros(0, int))
-    near = np.flatnonzero(row < len(place))
-    points, row = points[near], row[near]
+def find_borders(near: NearEdges, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
+    """Visible borders at the current shape, from the scan points near its edges."""
+    points, row = near.points, near.row
     pairs = (edges.first, edges.second), (edges.second, edges.first)
     found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
              for k, (seen, other) in enumerate(pairs)]

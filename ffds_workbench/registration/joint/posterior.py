@@ -24,8 +24,9 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
-    assert state.factor is not None and state.strained is not None
-    inverse = state.factor.inverse_blocks()
+    factor, near = state.factor, state.near_edges
+    assert factor is not None and near is not None and state.strained is not None
+    inverse = factor.inverse_blocks()
     equations = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained)
     told = 3 * problem.lattices.count - float(inverse.ravel() @ equations.blocks.ravel())
     ratio = paid(problem, state) / max(told, 1.0)
@@ -33,7 +34,7 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
         return inverse
     np.divide(equations.blocks, ratio, out=equations.blocks)
     add_data(equations, problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
-    borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
+    borders = find_borders(near, problem.couplings.edges, problem.sides, state.control_points,
                            problem.statistics.noise)
     add_borders(equations, problem, borders)
     return FrontCholesky(problem.pattern.layout, equations.blocks).inverse_blocks()

@@ -15,7 +15,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..splines import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
-from .boundary import find_borders, near_edges
+from .boundary import find_borders, find_near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
 from .part import JointPart
@@ -93,10 +93,8 @@ def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State) -> State:
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
     state = replace(state, nearest=None if stage.all_points else state.nearest)
-    if stage.soft:
-        near = state.near if len(state.near) else near_edges(problem.scan, problem.couplings.edges, problem.sides,
-                                                             state.control_points)
-        state = replace(state, near=near, factor=None if stage.all_points else state.factor)
+    if stage.all_points:
+        state = replace(state, factor=None)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))
         if state.last_step < stage.enough:
@@ -121,8 +119,11 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
         strained, turned = strain_blocks(problem, state.control_points), 0.0
     equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained)
     add_data(equations, problem, jet, values)
+    near_edges = state.near_edges
     if stage.soft:
-        borders = find_borders(state.near, problem.couplings.edges, problem.sides, state.control_points,
+        near_edges = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, state.control_points,
+                                     near_edges)
+        borders = find_borders(near_edges, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)
         add_borders(equations, problem, borders)
     near = state.factor if stage.bending > _SOFTER * state.stiff else None
@@ -131,5 +132,5 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor,
                    stiff=stage.bending if factor is not near else state.stiff, values=values, noise=values.noise,
-                   nearest=found.nearest, strained=strained, turned=turned + last_step, last_step=last_step,
-                   iterations=state.iterations + 1)
+                   nearest=found.nearest, near_edges=near_edges, strained=strained, turned=turned + last_step,
+                   last_step=last_step, iterations=state.iterations + 1)

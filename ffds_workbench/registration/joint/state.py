@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..splines import Array
+from .boundary import NearEdges
 from .cholesky import FrontCholesky
 from .lattice import Index
 from .problem import Problem
@@ -34,7 +35,7 @@ class State:
     values : of the last iteration
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     trust : in the priors
-    near : scan points near the edges, once they are needed
+    near_edges : scan points near the edges, once they are needed, found on a shape that is hardly another
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     strained : `strain_blocks` of a shape near by
     turned : how far the shape has moved since, in mm
@@ -51,7 +52,7 @@ class State:
     values: CellValues
     facing: Array | None = None
     trust: Trust = field(default_factory=Trust)
-    near: Array = field(default_factory=lambda: np.zeros((0, 3)))
+    near_edges: NearEdges | None = None
     nearest: Index | None = None
     strained: Array | None = None
     turned: float = 0.0
