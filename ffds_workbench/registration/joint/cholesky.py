@@ -102,8 +102,9 @@ class FrontCholesky:
         for number in range(len(layout.fronts) - 1, -1, -1):
             front, z = layout.fronts[number], layout.matrix(flat, number)
             k = 3 * len(front.own)
-            lower = np.tril(lapack.dpotri(self.own[number], lower=1)[0])
-            z[:k, :k] = lower + np.tril(lower, -1).T
+            lower = lapack.dpotri(self.own[number], lower=1)[0]       # zero above its diagonal, as the factor is
+            z[:k, :k] = lower + lower.T
+            np.fill_diagonal(z[:k, :k], lower.diagonal())
             if front.parent >= 0:
                 above, runs, below = layout.matrix(flat, front.parent), layout.parent_runs[number], z[k:, k:]
                 for here, there in runs:

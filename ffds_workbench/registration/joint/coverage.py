@@ -67,7 +67,7 @@ def coverage(problem: Problem, values: CellValues) -> Coverage:
     for face in range(len(problem.part.faces)):
         spans = np.flatnonzero(problem.lattices.face_of_span == face)
         position, seen = problem.cells.nominal.position[spans], observed[spans]
-        tree = cKDTree(position[seen]) if seen.any() else None
+        tree = cKDTree(position[seen], balanced_tree=False, compact_nodes=False) if seen.any() else None
         trees.append(tree)
         if tree is not None:
             gap[spans] = tree.query(position.reshape(-1, 3))[0].reshape(len(spans), -1)

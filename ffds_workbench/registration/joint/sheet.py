@@ -82,7 +82,7 @@ def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, ar
         return np.zeros((0, 8))
     there, there_normal = cells.nominal.position[span, cell], cell_normals[span, cell]
     here, normal = gauss.nominal.position[own_span, own], gauss_normals[own_span, own]
-    tree = cKDTree(np.hstack([there, _NORMAL_SCALE * there_normal]))
+    tree = cKDTree(np.hstack([there, _NORMAL_SCALE * there_normal]), balanced_tree=False, compact_nodes=False)
     near = tree.query(np.hstack([here, -_NORMAL_SCALE * normal]))[1]
     offset, cosine = there[near] - here, np.einsum("nx,nx->n", normal, there_normal[near])
     depth = -np.einsum("nx,nx->n", offset, there_normal[near]) / np.where(cosine < -0.1, cosine, -1.0)

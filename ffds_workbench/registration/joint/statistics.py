@@ -31,11 +31,12 @@ class ScanStatistics:
 
 def scan_statistics(scan: Array) -> ScanStatistics:
     """Statistics of a scan (n, 3), from points in the middle of a few slabs across it, where it keeps its density."""
-    axis = int(np.argmax(np.ptp(scan, axis=0)))
-    order = np.argsort(scan[:, axis])
-    found = [_slab_statistics(scan[order[start : start + _SLAB_POINTS]])
-             for start in {max(0, int(f * len(scan)) - _SLAB_POINTS // 2) for f in _SLABS}]
-    density, noise = np.concatenate(found, axis=1)
+    across = scan[:, int(np.argmax(np.ptp(scan, axis=0)))]
+    starts = np.unique([max(0, int(f * len(scan)) - _SLAB_POINTS // 2) for f in _SLABS])
+    bounds = np.unique(np.minimum([starts, starts + _SLAB_POINTS], len(scan) - 1))
+    order = np.argpartition(across, bounds)
+    slabs = [order[start : start + _SLAB_POINTS] for start in starts]
+    density, noise = np.concatenate([_slab_statistics(scan[slab[np.argsort(across[slab])]]) for slab in slabs], axis=1)
     return ScanStatistics(float(np.median(density)), max(float(np.median(noise)), 1e-4))
 
 
