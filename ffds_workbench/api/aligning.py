@@ -2,6 +2,7 @@
 """The job ``align``: bring a scan onto the model, and say how sure that is."""
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,7 +15,7 @@ from ..brep import workpiece
 from ..brep.files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
-from ..registration.rigid import FAILED, Alignment, align, target_of
+from ..registration.rigid import FAILED, Alignment, Target, align, target_of
 from ..registration.rigid.motions import difference
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
@@ -25,6 +26,7 @@ from .inputs import as_cloud, as_model
 from .outputs import destinations
 
 ALIGNMENTS = ("fine", "global")
+_TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
 
 
 @dataclass(frozen=True)
@@ -87,8 +89,7 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         cloud = as_cloud(scan)
-        part = workpiece.read(as_model(model).shape)
-        target = target_of([part.geometry(index) for index in range(len(part.faces))])
+        target = _target_of(as_model(model).shape)
     with watch.stage("align", "Aligning the scan"):
         found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3],
                                    mode if start is None else "local"))
@@ -116,6 +117,17 @@ def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | No
         write_ply(temporary[0], aligned.scan.points)
         if pose is not None:
             record.write(aligned.report, temporary[1])
+
+
+def _target_of(shape: Part.Shape) -> Target:
+    """The target of a shape; that of the last shapes is kept, for the next scan of the same part."""
+    for known, target in _TARGETS:
+        if known.isEqual(shape):
+            return target
+    part = workpiece.read(shape)
+    target = target_of([part.geometry(index) for index in range(len(part.faces))])
+    _TARGETS.appendleft((shape, target))
+    return target
 
 
 def _start_pose(start: np.ndarray | None) -> np.ndarray:

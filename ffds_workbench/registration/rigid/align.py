@@ -8,7 +8,7 @@ import numpy as np
 
 from ..splines import Array
 from .alignment import FAILED, Alignment
-from .hypothesis import Verified, best_of, nearest_of, turned_on, verify
+from .hypothesis import Verified, best_of, nearest_of, turned_on, verify, worth_a_look
 from .polish import polish
 from .proposals import LOCAL, THOROUGH, Stage, propose
 from .quick import quickly
@@ -22,6 +22,8 @@ from .verify import examine
 _CERTAIN = 0.95
 """Certainty from which the surroundings of the best pose are not searched once more."""
 _FEWEST = 50
+_EVERY = 4
+"""Of the points of the scan that tell which poses are worth a closer look."""
 
 
 def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[float] | None = None,
@@ -89,5 +91,7 @@ def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, 
             generator: np.random.Generator) -> list[Verified]:
     """The most promising poses, refined and verified."""
     candidates = propose(target, sketch, starts, stages, generator)
-    return [verify(target, sketch, table, pose, signs)
-            for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
+    few = sketch.every(_EVERY)
+    rough = [verify(target, few, table, pose, signs)
+             for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
+    return [verify(target, sketch, table, found.pose, candidates.signs[k]) for k, found in worth_a_look(rough, target)]

@@ -23,6 +23,10 @@ MARGIN = 0.06
 """Poses whose scores differ by less than this share of what is left unexplained fit alike."""
 SAME_TURN, SAME_SHIFT = 0.07, 0.03
 """Poses closer than this (rad, share of the part's size) are one."""
+_WORTH = 0.1
+"""A pose that scores worse by more on few points will not on many turn out to be the best."""
+_ONE_TURN, _ONE = 0.01, 0.005
+"""Poses closer than this (rad, share of the part's size) have settled in the same place."""
 _SAME_PLACE = 0.005
 """Share of the part's size by which one of two poses has to be nearer to count as the nearer one: less than a sheet is
 thick."""
@@ -98,6 +102,19 @@ def best_of(verified: Sequence[Verified], mode: str, target: Target, sketch: Ske
         moved = [float(shift(v.pose, np.eye(4), place)) for v in good]
         good = [v for v, move in zip(good, moved, strict=True) if move < min(moved) + _SAME_PLACE * target.size]
     return max(good, key=lambda v: v.evidence.score)
+
+
+def worth_a_look(verified: Sequence[Verified], target: Target) -> list[tuple[int, Verified]]:
+    """Poses that may turn out the best, with their numbers; each but once."""
+    best = max(v.evidence.score for v in verified)
+    kept: list[tuple[int, Verified]] = []
+    for k in sorted(range(len(verified)), key=lambda k: -verified[k].evidence.score):
+        one = verified[k]
+        known = any(angle(one.pose, v.pose) < _ONE_TURN and shift(one.pose, v.pose, target.centre) < _ONE * target.size
+                    for _, v in kept)
+        if one.evidence.score > best - _WORTH and not known:
+            kept.append((k, one))
+    return kept
 
 
 def alike(verified: Sequence[Verified]) -> list[Verified]:

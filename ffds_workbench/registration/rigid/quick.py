@@ -14,7 +14,7 @@ from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
 from .motions import motion
 from .polish import polish_deformed, polish_rigid
 from .proposals import QUICK, propose
-from .sketch import Sketch, sketch_of
+from .sketch import Plane, Sketch, find_table, sketch_of
 from .starts import turns_up_to
 from .target import Target
 from .verdict import FAILS, answer_of
@@ -22,6 +22,8 @@ from .verify import examine, is_rough
 
 _FEWEST = 50
 _ROTATIONS, _TURN, _POOL, _POINTS, _THIRD = 12, 0.5, 24_000, 1_500, 3
+_WIDE = 0.75
+"""A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 8
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
 _CLEARLY_RIGHT = 0.90
@@ -35,6 +37,11 @@ answer was right, and certainty of an answer."""
 def quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
     """The pose of a clean scan that lies within some 30° of it; None if none is clearly right."""
     whole = sketch_of(scan, generator, _POINTS, _POOL, 1)
+    table = None
+    if np.linalg.norm(whole.points - whole.points.mean(axis=0), axis=1).max() > _WIDE * target.size:
+        table = find_table(whole, target.shadow, generator)
+    if table is not None:
+        whole = sketch_of(scan[table.heights(scan) > table.tolerance], generator, _POINTS, _POOL, 1)
     sketch = whole.every(_THIRD)
     if len(sketch.points) < _FEWEST or is_rough(target, sketch):
         return None
@@ -44,7 +51,8 @@ def quickly(target: Target, scan: Array, scale: float, generator: np.random.Gene
     # a sheet is seen from one side, and only its rims tell which
     sides = [_refined(target, sketch, candidates.poses[0], signs)
              for signs in (candidates.signs[0], -candidates.signs[0])]
-    return _undeformed(target, sketch, sides, scale) or _deformed(target, sketch, whole, sides, scale)
+    return (_undeformed(target, sketch, table, sides, scale)
+            or _deformed(target, sketch, table, whole, sides, scale))
 
 
 @dataclass(frozen=True)
@@ -63,24 +71,26 @@ def _refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> _Side
     return _Side(pose, signs, normals @ pose[:3, :3].T)
 
 
-def _undeformed(target: Target, sketch: Sketch, sides: Sequence[_Side], scale: float) -> Alignment | None:
+def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
+                ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part as it is."""
     clear: list[Verified] = []
     for side in sides:
         normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
-        evidence = examine(target.light, sketch, side.pose, normals, None, rounds=0)
+        evidence = examine(target.light, sketch, side.pose, normals, table, rounds=0)
         if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS and turned < TURNED:
             clear.append(Verified(side.pose, evidence, normals))
     if not clear:
         return None
     best = best_of(clear, "fine", target, sketch)
     pose = polish_rigid(target, sketch, best.pose, best.evidence.coverage)
-    return answer_of(target, sketch, None, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
+    return answer_of(target, sketch, table, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
 
 
-def _deformed(target: Target, sketch: Sketch, whole: Sketch, sides: Sequence[_Side], scale: float) -> Alignment | None:
+def _deformed(target: Target, sketch: Sketch, table: Plane | None, whole: Sketch, sides: Sequence[_Side], scale: float,
+              ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
-    misfits = [examine(target.light, sketch, side.pose, side.normals, None) for side in sides]
+    misfits = [examine(target.light, sketch, side.pose, side.normals, table) for side in sides]
     order = np.argsort([evidence.misfit for evidence in misfits])
     side, evidence = sides[order[0]], misfits[order[0]]
     if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * misfits[order[1]].misfit:
@@ -89,8 +99,8 @@ def _deformed(target: Target, sketch: Sketch, whole: Sketch, sides: Sequence[_Si
                            evidence.coverage)
     normals = outward(sketch, side.signs) @ pose[:3, :3].T
     if evidence.certainty < _CERTAIN:
-        evidence = examine(target.light, sketch, pose, normals, None)
+        evidence = examine(target.light, sketch, pose, normals, table)
     if evidence.certainty < _CERTAIN:
         return None
     best = Verified(pose, evidence, normals)
-    return answer_of(target, sketch, None, best, [best], scale)
+    return answer_of(target, sketch, table, best, [best], scale)
