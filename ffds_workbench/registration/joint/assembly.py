@@ -10,7 +10,7 @@ from scipy.linalg import blas
 from ..splines import Array
 from .boundary import Borders
 from .lattice import Index, cubic
-from .problem import Problem
+from .problem import Across, Problem
 from .raster import Jet, normals
 from .settings import Trust
 from .stiffness import COMPONENTS
@@ -83,21 +83,25 @@ def add_borders(equations: NormalEquations, problem: Problem, borders: Borders) 
 
 
 def shape_equations(problem: Problem, control_points: Array, bending: float, trust: Trust,
-                    strained: Array) -> NormalEquations:
-    """All priors at the current shape with the trust they have; ``bending`` multiplies the weight of bending and
-    ``strained`` is `strain_blocks`, which may be those of a shape near by: what is to be solved stays exact."""
+                    strained: Array, across: Across) -> NormalEquations:
+    """All priors at the current shape with the trust they have; ``bending`` multiplies the weight of bending.
+
+    ``strained`` is `strain_blocks` and ``across`` tells along which normals thickness is measured; both may be those of
+    a shape near by, the first without any change of what is solved.
+    """
     settings, stiffness = problem.settings, problem.stiffness
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    factors = np.array([1.0, weight, trust.shear, trust.thickness - trust.shear, trust.dihedral])
+    factors = np.array([1.0, weight, trust.shear, trust.dihedral])
     blocks = factors @ problem.constant.reshape(len(factors), -1)
+    blocks = blas.daxpy(across.blocks.ravel(), blocks, a=trust.thickness - trust.shear)
     skin, wall = problem.isometry_weights(trust)
     for rows, isometry in zip(strained, (skin, wall), strict=True):
         blocks = blas.daxpy(rows.ravel(), blocks, a=isometry)
     bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     right = (weight * gather(problem, stiffness.bending_load(control_points, problem.lattices, normal, bent))
-             + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear)
+             + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear, across.normal)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
              - problem.couplings.scalar @ control_points)
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)

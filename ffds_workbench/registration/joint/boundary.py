@@ -26,9 +26,9 @@ _HARDLY_MOVES = 0.2
 """Movement in mm of the edges after which points keep their samples, which are farther apart."""
 _SHARP = 0.7
 _RANKS, _WITHIN_NOISE = 3, 0.4
-"""The edge lies beyond the outermost point by what half a point takes of the density: sensors take points in rows,
-which spread more evenly than chance does. Where more than one lies within this part of the noise, which carries points
-over the edge, it is the second or the third one that counts."""
+"""The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
+than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
+counts."""
 _BAND = (0.5, 2.0)
 """Distance inside the outermost points, in mm, between which the density is counted."""
 _FEWEST = 12
@@ -166,7 +166,7 @@ def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, othe
          np.ones(count)))
     per_mm = np.maximum(population / samples / (_BAND[1] - _BAND[0]), 1e-9)
     rank = np.clip(np.ceil(_WITHIN_NOISE * noise * per_mm), 1, _RANKS).astype(int)
-    offset = outermost[rank - 1, np.arange(count)] + (rank - 0.5) / per_mm
+    offset = outermost[rank - 1, np.arange(count)] + rank / per_mm
     good = sharp & (population >= _FEWEST) & (strange < _UNSEEN * population) & (np.abs(offset) < _FARTHEST)
     if not good.any():
         return nothing

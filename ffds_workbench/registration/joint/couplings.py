@@ -52,7 +52,6 @@ class Couplings:
     ----------
     scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
     shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
-    thickness : (3 controls, 3 controls) that of its part along the normal
     pairs, edges : the places that are coupled
     pair_normal : (pairs, 3) nominal normal of the sheets
     angle : (samples,) nominal angle of the edges in rad
@@ -66,7 +65,6 @@ class Couplings:
 
     scalar: csr_matrix
     shear: csr_matrix
-    thickness: csr_matrix
     pairs: SheetPairs
     edges: EdgeSamples
     pair_normal: Array
@@ -79,23 +77,35 @@ class Couplings:
     dihedral_weight: Array
     sharp: NDArray[np.bool_]
 
-    def thickness_load(self, control_points: Array, thickness: float, shear: float) -> Array:
+    def thickness_load(self, control_points: Array, thickness: float, shear: float, normal: Array) -> Array:
         """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3).
 
-        ``thickness`` and ``shear`` weigh the parts along the nominal normal and in the skin.
+        ``thickness`` and ``shear`` weigh the parts along ``normal``, (pairs, 3), and across it.
         """
-        across, along = self.thickness_misfit(control_points)
-        misfit = thickness * across[:, None] * self.pair_normal + shear * along
+        across, along = self.thickness_misfit(control_points, normal)
+        misfit = thickness * across[:, None] * normal + shear * along
         return -(self.thickness_rows.T @ (self.thickness_weight[:, None] * misfit))
 
-    def thickness_misfit(self, control_points: Array) -> tuple[Array, Array]:
-        """d_back − d_front + t (n − n₀): along the nominal normal (pairs,), and what is left in the skin (pairs, 3)."""
+    def thickness_misfit(self, control_points: Array, normal: Array) -> tuple[Array, Array]:
+        """d_back − d_front + t (n − n₀): along ``normal`` (pairs, 3), (pairs,), and what is left across it, (pairs, 3).
+
+        Along the current normal it is the change of the distance between the skins, wherever they slide to.
+        """
         if not len(self.pairs.thickness):
             return np.zeros(0), np.zeros((0, 3))
-        turned = _sheet_normals(self.pairs, control_points) - self.pair_normal
+        turned = self.sheet_normals(control_points) - self.pair_normal
         misfit = self.thickness_rows @ control_points + self.pairs.thickness[:, None] * turned
-        across = np.einsum("nx,nx->n", misfit, self.pair_normal)
-        return across, misfit - across[:, None] * self.pair_normal
+        across = np.einsum("nx,nx->n", misfit, normal)
+        return across, misfit - across[:, None] * normal
+
+    def thickness_matrix(self, normal: Array) -> csr_matrix:
+        """Normal matrix of d_back − d_front along ``normal``, (pairs, 3): (3 controls, 3 controls)."""
+        across = _along(self.thickness_rows, normal)
+        return (across.T @ diags(self.thickness_weight) @ across).tocsr()
+
+    def sheet_normals(self, control_points: Array) -> Array:
+        """Current normals of the sheets at the pairs, from both skins: (pairs, 3)."""
+        return _sheet_normals(self.pairs, control_points)
 
     def dihedral_load(self, control_points: Array, trust: float) -> Array:
         """Gradient that brings every edge back to its nominal angle, sharp ones as far as trusted: (controls, 3)."""
@@ -133,13 +143,11 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
-    across = _along(thickness_rows, normal)
-    thickness = (across.T @ diags(thickness_weight) @ across).tocsr()
     angle = _angle(edges, still)
     sharp = np.abs(angle) > _SMOOTH_ANGLE
     smooth, dihedral = ((rows.T @ diags(dihedral_weight[which]) @ rows).tocsr()
                         for which in (~sharp, sharp) for rows in (dihedral_rows[which],))
-    return Couplings(scalar.tocsr(), shear, thickness, pairs, edges, normal, angle, thickness_rows, thickness_weight,
+    return Couplings(scalar.tocsr(), shear, pairs, edges, normal, angle, thickness_rows, thickness_weight,
                      smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
 

@@ -25,9 +25,10 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
     factor, near = state.factor, state.near_edges
-    assert factor is not None and near is not None and state.strained is not None
+    assert factor is not None and near is not None and state.strained is not None and state.across is not None
     inverse = factor.inverse_blocks()
-    equations = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained)
+    equations = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained,
+                                state.across)
     told = 3 * problem.lattices.count - float(inverse.ravel() @ equations.blocks.ravel())
     ratio = paid(problem, state) / max(told, 1.0)
     if ratio < _SAME:

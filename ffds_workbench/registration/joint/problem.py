@@ -34,6 +34,14 @@ _WALL = 0.1
 
 
 @dataclass(frozen=True)
+class Across:
+    """The thickness of sheets along normals (pairs, 3): ``blocks`` (size, 3, 3) are its rows on the pattern."""
+
+    normal: Array
+    blocks: Array
+
+
+@dataclass(frozen=True)
 class Problem:
     """Constants of one joint solve.
 
@@ -44,8 +52,8 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending, of
-        the distance of opposite skins in all directions and of its part along the normal, of sharp edges
+    constant : (4, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending, of
+        the distance of opposite skins in all directions, of sharp edges
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -65,6 +73,11 @@ class Problem:
     constant: Array
     sides: EdgeSides
     margin: Array
+
+    def across(self, control_points: Array) -> Across:
+        """Rows of the thickness along the normals that the sheets have with these control points."""
+        normal = self.couplings.sheet_normals(control_points)
+        return Across(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
     @property
     def face_of_cell(self) -> Index:
@@ -115,7 +128,6 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     distance = distance_to_trims(part.faces, lattices, cells)
     constant = np.stack([_same_for_all(pattern.from_scalar(couplings.scalar)) + pattern.from_vector(couplings.smooth),
                          _bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
-                         pattern.from_vector(couplings.thickness),
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,

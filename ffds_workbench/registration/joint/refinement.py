@@ -66,7 +66,7 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
             values = np.moveaxis(np.tensordot(lstsq(rows, np.eye(len(sites)))[0], values, axes=(1, axis)), 0, axis)
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
-    return replace(state, control_points=control_points, strained=None, factor=None, nearest=None)
+    return replace(state, control_points=control_points, strained=None, across=None, factor=None, nearest=None)
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

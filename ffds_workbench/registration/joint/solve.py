@@ -93,8 +93,9 @@ def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State) -> State:
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
     state = replace(state, nearest=None if stage.all_points else state.nearest)
-    if stage.all_points:
-        state = replace(state, factor=None)
+    if stage.soft:
+        state = replace(state, across=problem.across(state.control_points),
+                        factor=None if stage.all_points else state.factor)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))
         if state.last_step < stage.enough:
@@ -117,7 +118,9 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     strained, turned = state.strained, state.turned
     if strained is None or turned > _HARDLY_TURNS:
         strained, turned = strain_blocks(problem, state.control_points), 0.0
-    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained)
+    across = state.across or problem.across(state.control_points)
+    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained,
+                                across)
     add_data(equations, problem, jet, values)
     near_edges = state.near_edges
     if stage.soft:
@@ -132,5 +135,5 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor,
                    stiff=stage.bending if factor is not near else state.stiff, values=values, noise=values.noise,
-                   nearest=found.nearest, near_edges=near_edges, strained=strained, turned=turned + last_step,
-                   last_step=last_step, iterations=state.iterations + 1)
+                   nearest=found.nearest, near_edges=near_edges, strained=strained, across=across,
+                   turned=turned + last_step, last_step=last_step, iterations=state.iterations + 1)

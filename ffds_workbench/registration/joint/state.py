@@ -12,7 +12,7 @@ from ..splines import Array
 from .boundary import NearEdges
 from .cholesky import FrontCholesky
 from .lattice import Index
-from .problem import Problem
+from .problem import Across, Problem
 from .settings import Trust
 from .values import CellValues, nothing
 
@@ -38,6 +38,7 @@ class State:
     near_edges : scan points near the edges, once they are needed, found on a shape that is hardly another
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     strained : `strain_blocks` of a shape near by
+    across : along which normals thickness is measured
     turned : how far the shape has moved since, in mm
     factor : of an earlier normal matrix; after the last stage of one with all data
     stiff : the multiple of the bending weight in that matrix
@@ -55,6 +56,7 @@ class State:
     near_edges: NearEdges | None = None
     nearest: Index | None = None
     strained: Array | None = None
+    across: Across | None = None
     turned: float = 0.0
     factor: FrontCholesky | None = None
     stiff: float = 0.0

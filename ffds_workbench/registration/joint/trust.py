@@ -16,11 +16,12 @@ from .raster import normals
 from .settings import Stage, Trust
 from .state import State
 
-_EXPECTED = Trust(isometry=80.0, thickness=20.0, shear=10.0, dihedral=6.0)
-"""Shapes that a scan tells of a part for each prior; traces of the covariance give half to twice of these."""
+_EXPECTED = Trust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0)
+"""Shapes that a scan tells of a part for each prior, save thickness half or less of what traces of the covariance say:
+deformations are smooth, so that a few large shapes pay what many small ones would."""
 _CONTROLS = 1000.0
 """Parts with more control points than this have more of them."""
-_LEAST = Trust(isometry=1e-3, thickness=1e-2, shear=1e-3, dihedral=1e-3)
+_LEAST = Trust(isometry=1e-5, thickness=1e-2, shear=1e-5, dihedral=1e-5)
 """A sheet bends, stretches and even shears far more easily than it changes its thickness."""
 _LEAST_MASSIVE = 0.1
 """The same of the thickness of massive parts: nothing but their other side tells where an unseen one is."""
@@ -32,12 +33,18 @@ _OBSERVED = 0.3
 
 
 def judge(problem: Problem, state: State, stage: Stage) -> State:
-    """The state with its trust in the priors renewed; until the soft stages all are trusted."""
+    """The state with its trust in the priors renewed; until the soft stages all are trusted.
+
+    A prior that is much trusted forces the shape to comply and then costs little. So the first soft stage allows for
+    less than is expected, and trust is won back from there.
+    """
     trust, mode = Trust(), problem.settings.isometry
     if stage.soft:
         cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
+        expected = Trust(**{name: number * value * (1.0 if name == "thickness" else stage.allowance)
+                            for name, value in vars(_EXPECTED).items()})
         least = _LEAST if problem.skin.any() else replace(_LEAST, thickness=_LEAST_MASSIVE)
-        trust = Trust(**{name: float(np.clip(number * getattr(_EXPECTED, name) / max(getattr(cost, name), 1e-12),
+        trust = Trust(**{name: float(np.clip(getattr(expected, name) / max(getattr(cost, name), 1e-12),
                                              getattr(least, name), 1.0)) for name in vars(trust)})
     if mode != "auto":
         trust = replace(trust, isometry=1.0 if mode == "on" else _OFF)
@@ -48,7 +55,7 @@ def costs(problem: Problem, control_points: Array) -> Trust:
     """What each prior costs at the current shape with its full weight, in chi-square units."""
     couplings = problem.couplings
     strain = (problem.stiffness.weight * (strain_at(problem, control_points) ** 2).sum(axis=2)).sum(axis=1)
-    across, along = couplings.thickness_misfit(control_points)
+    across, along = couplings.thickness_misfit(control_points, couplings.sheet_normals(control_points))
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return Trust(isometry=float(problem.isometry_weights(Trust())[0] * strain[problem.skin].sum()),
                  thickness=float((weight * across**2).sum()),
