@@ -35,9 +35,10 @@ _SAMPLES_PER_SPAN = 2
 _AROUND_LARGEST = 17
 
 _CHECKER = """
-import json, sys
+import json, os, sys
 try:
     import resource
+    os.nice(5)
     resource.setrlimit(resource.RLIMIT_CPU, (int(sys.argv[3]), int(sys.argv[3])))
 except ImportError:
     pass
@@ -226,8 +227,8 @@ def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
 class BooleanChecks:
     """OCCT's checks for Boolean operations, running beside other work.
 
-    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own. It ends with
-    this object, or by itself when it has used the time, should nobody be left to end it.
+    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own, behind what is
+    more urgent. It ends with this object, or by itself when it has used the time, should nobody be left to end it.
 
     Parameters
     ----------
