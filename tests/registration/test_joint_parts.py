@@ -87,7 +87,7 @@ def test_strain_derivative(cylinder, lattices):
     step = 1e-6
     ends = [stiffness.strain(lattices, points + s * change, normal, thickness) for s in (step, -step)]
     expected = (ends[0] - ends[1]) / (2 * step)
-    assert np.einsum("skpcx,scx->skp", rows, change[lattices.controls]) == pytest.approx(expected, abs=1e-6)
+    assert np.einsum("skpxc,scx->skp", rows, change[lattices.controls]) == pytest.approx(expected, abs=1e-6)
 
 
 def test_strain_load_is_that_of_the_rows(cylinder, lattices):
@@ -99,7 +99,7 @@ def test_strain_load_is_that_of_the_rows(cylinder, lattices):
     stress = random.normal(size=normal.shape)
     rows = stiffness.strain_rows(lattices, points, normal, thickness)
     load = stiffness.strain_load(lattices, points, normal, thickness, stress)
-    assert load == pytest.approx(np.einsum("skpcx,skp->scx", rows, stress), abs=1e-9)
+    assert load == pytest.approx(np.einsum("skpxc,skp->scx", rows, stress), abs=1e-9)
 
 
 def test_fronts_solve_and_invert_like_a_dense_matrix():

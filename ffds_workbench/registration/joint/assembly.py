@@ -119,13 +119,13 @@ def strain_blocks(problem: Problem, control_points: Array) -> Array:
     rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
     flat = rows.reshape(len(rows), -1, 48)
     weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
-    blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 16, 3, 16, 3)
+    blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
     result = np.empty((2, problem.pattern.size, 3, 3))
     for number, spans in enumerate((np.flatnonzero(problem.skin), np.flatnonzero(~problem.skin))):
         own = blocks[spans]
         for a in range(3):
             for b in range(3):
-                result[number, :, a, b] = problem.pattern.from_spans(own[:, :, a, :, b], spans)
+                result[number, :, a, b] = problem.pattern.from_spans(own[:, a, :, b], spans)
     return result
 
 

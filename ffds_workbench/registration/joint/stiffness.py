@@ -112,14 +112,12 @@ class Stiffness:
         return np.matmul(slope, pull.reshape(spans, -1, 3)) + np.matmul(hessian, moment.reshape(spans, -1, 3))
 
     def strain_rows(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
-        """Derivative of `strain` by the control points: (spans, k, 3, 16, 3)."""
+        """Derivative of `strain` by x, y and z of the control points: (spans, k, 3, 3, 16)."""
         tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])
-        rows = np.stack([0.5 * _NORM[p] * (tangent[:, :, i, None, :] * self.slope[:, :, j, :, None]
-                                           + tangent[:, :, j, None, :] * self.slope[:, :, i, :, None])
-                         for p, (i, j) in enumerate(_PAIRS)], axis=2)
-        sheet = np.flatnonzero(thickness)
-        rows[sheet] += (0.5 * thickness[sheet, None, None, None, None] * self.hessian[sheet, ..., None]
-                        * normal[sheet, :, None, None, :])
+        rows = (0.5 * thickness[:, None, None] * normal)[:, :, None, :, None] * self.hessian[:, :, :, None, :]
+        for p, (i, j) in enumerate(_PAIRS):
+            rows[:, :, p] += 0.5 * _NORM[p] * tangent[:, :, i, :, None] * self.slope[:, :, j, None, :]
+            rows[:, :, p] += 0.5 * _NORM[p] * tangent[:, :, j, :, None] * self.slope[:, :, i, None, :]
         return rows
 
 
