@@ -12,7 +12,7 @@ from .alignment import Alignment
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
 from .motions import motion
-from .polish import polish_deformed, polish_rigid
+from .polish import is_deformed, polish_deformed, polish_rigid
 from .proposals import QUICK, propose
 from .sketch import Plane, Sketch, find_table, sketch_of
 from .starts import turns_up_to
@@ -83,6 +83,8 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
     if not clear:
         return None
     best = best_of(clear, "fine", target, sketch)
+    if is_deformed(target, sketch, best.pose, best.normals):
+        return None
     pose = polish_rigid(target, sketch, best.pose, best.evidence.coverage)
     return answer_of(target, sketch, table, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
 
