@@ -93,14 +93,15 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    factors = np.array([1.0, weight, trust.shear, trust.dihedral])
+    factors = np.array([1.0, weight, weight * trust.sliding, trust.shear, trust.dihedral])
     blocks = factors @ problem.constant.reshape(len(factors), -1)
     blocks = blas.daxpy(across.blocks.ravel(), blocks, a=trust.thickness - trust.shear)
     skin, wall = problem.isometry_weights(trust)
     for rows, isometry in zip(strained, (skin, wall), strict=True):
         blocks = blas.daxpy(rows.ravel(), blocks, a=isometry)
     bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
-    right = (weight * gather(problem, stiffness.bending_load(control_points, problem.lattices, normal, bent))
+    load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
+    right = (weight * gather(problem, load)
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear, across.normal)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
              - problem.couplings.scalar @ control_points)

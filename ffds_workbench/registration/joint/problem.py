@@ -52,8 +52,8 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    constant : (4, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending, of
-        the distance of opposite skins in all directions, of sharp edges
+    constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending across
+        the surfaces and within them, of the distance of opposite skins in all directions, of sharp edges
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -127,7 +127,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
     constant = np.stack([_same_for_all(pattern.from_scalar(couplings.scalar)) + pattern.from_vector(couplings.smooth),
-                         _bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
+                         *_bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
@@ -140,16 +140,13 @@ def _same_for_all(values: Array) -> Array:
     return values[:, None, None] * np.eye(3)
 
 
-def _bending(pattern: Pattern, stiffness: Stiffness) -> Array:
-    """Rows of bending on the pattern: (size, 3, 3)."""
+def _bending(pattern: Pattern, stiffness: Stiffness) -> tuple[Array, Array]:
+    """Rows of bending across the surfaces and within them on the pattern: (size, 3, 3) each."""
     every, along = stiffness.bending_blocks()
-    blocks = _same_for_all(SLIDING * pattern.from_spans(every))
+    across = np.empty((pattern.size, 3, 3))
     for number, (a, b) in enumerate(COMPONENTS):
-        value = (1 - SLIDING) * pattern.from_spans(along[:, number])
-        blocks[:, a, b] += value
-        if a != b:
-            blocks[:, b, a] += value
-    return blocks
+        across[:, a, b] = across[:, b, a] = pattern.from_spans(along[:, number])
+    return across, SLIDING * (_same_for_all(pattern.from_spans(every)) - across)
 
 
 def _positions(lattices: Lattices, cells: Places) -> Array:

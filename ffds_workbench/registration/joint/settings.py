@@ -22,7 +22,7 @@ class Stage:
     enough : the stage is over when no point moves farther in a step, in mm
     soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
-    allowance : multiplies what the priors, save thickness, may cost before they are trusted less
+    allowance : multiplies what the priors, save thickness and sliding, may cost before they are trusted less
     """
 
     bending: float
@@ -37,12 +37,14 @@ class Stage:
 @dataclass(frozen=True)
 class Trust:
     """Factors on the weights of the priors: of isometry, of the thickness of sheets and their resistance to shear
-    through the thickness, and of the angles of edges. Bending always has its weight: it only keeps surfaces smooth."""
+    through the thickness, of the angles of edges, and of what bends within a surface. Bending across it always has its
+    weight: it only keeps surfaces smooth."""
 
     isometry: float = 1.0
     thickness: float = 1.0
     shear: float = 1.0
     dihedral: float = 1.0
+    sliding: float = 1.0
 
 
 SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),

@@ -61,20 +61,29 @@ class Stiffness:
                  for a, b in COMPONENTS]
         return np.matmul(rows.swapaxes(1, 2), weight * rows), np.stack(along, axis=1)
 
-    def bending_load(self, control_points: Array, lattices: Lattices, normal: Array, bent: Array) -> Array:
+    def bending_load(self, control_points: Array, lattices: Lattices, normal: Array, bent: Array, sliding: float
+                     ) -> Array:
         """Gradient of bending towards the rotated nominal curvature b_ij (n − n₀) + c_ij n: (spans, 16, 3).
 
         ``normal`` is the current n, (spans, k, 3); ``bent`` the change of curvature c that costs nothing, (spans, 3). A
-        rigid rotation has d_;ij = b_ij (n − n₀) and costs nothing either.
+        rigid rotation has d_;ij = b_ij (n − n₀) and costs nothing either. ``sliding`` is the trust in `SLIDING`.
         """
         target = self.curvature[..., None] * (normal - self.normal)[:, :, None, :]
         target += bent[:, None, :, None] * normal[:, :, None, :]
         target -= np.matmul(self.hessian, control_points[lattices.controls][:, None])
         across = np.einsum("skpx,skx->skp", target, self.normal)
-        target = SLIDING * target + (1 - SLIDING) * across[..., None] * self.normal[:, :, None, :]
+        within = SLIDING * sliding
+        target = within * target + (1 - within) * across[..., None] * self.normal[:, :, None, :]
         target *= self.weight[:, :, None, None]
         rows = self.hessian.reshape(len(self.hessian), -1, 16)
         return np.matmul(rows.swapaxes(1, 2), target.reshape(len(rows), -1, 3))
+
+    def sliding(self, lattices: Lattices, control_points: Array, normal: Array) -> float:
+        """∫ |d_;ij − b_ij (n − n₀)|² within the nominal surface times `SLIDING`, in 1/mm² · mm²."""
+        change = np.matmul(self.hessian, control_points[lattices.controls][:, None])
+        change -= self.curvature[..., None] * (normal - self.normal)[:, :, None, :]
+        across = np.einsum("skpx,skx->skp", change, self.normal)
+        return SLIDING * float(self.weight.ravel() @ ((change**2).sum(axis=(2, 3)) - (across**2).sum(axis=2)).ravel())
 
     def curvature_change(self, lattices: Lattices, control_points: Array, normal: Array) -> Array:
         """Change of the second fundamental form at the Gauss places, 11, √2·12, 22: (spans, k, 3)."""

@@ -16,12 +16,13 @@ from .raster import normals
 from .settings import Stage, Trust
 from .state import State
 
-_EXPECTED = Trust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0)
-"""Shapes that a scan tells of a part for each prior, save thickness half or less of what traces of the covariance say:
+_EXPECTED = Trust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0, sliding=60.0)
+"""Shapes that a scan tells of a part for each prior, some of them half or less of what traces of the covariance say:
 deformations are smooth, so that a few large shapes pay what many small ones would."""
+_WON_BACK = ("isometry", "shear", "dihedral")
 _CONTROLS = 1000.0
 """Parts with more control points than this have more of them."""
-_LEAST = Trust(isometry=1e-5, thickness=1e-2, shear=1e-5, dihedral=1e-5)
+_LEAST = Trust(isometry=1e-5, thickness=1e-2, shear=1e-5, dihedral=1e-5, sliding=0.1)
 """A sheet bends, stretches and even shears far more easily than it changes its thickness."""
 _LEAST_MASSIVE = 0.1
 """The same of the thickness of massive parts: nothing but their other side tells where an unseen one is."""
@@ -35,13 +36,13 @@ _OBSERVED = 0.3
 def judge(problem: Problem, state: State, stage: Stage) -> State:
     """The state with its trust in the priors renewed; until the soft stages all are trusted.
 
-    A prior that is much trusted forces the shape to comply and then costs little. So the first soft stage allows for
-    less than is expected, and trust is won back from there.
+    A prior that is much trusted forces the shape to comply and then costs little. So the first soft stage allows some
+    of them less than is expected, and trust is won back from there.
     """
     trust, mode = Trust(), problem.settings.isometry
     if stage.soft:
         cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
-        expected = Trust(**{name: number * value * (1.0 if name == "thickness" else stage.allowance)
+        expected = Trust(**{name: number * value * (stage.allowance if name in _WON_BACK else 1.0)
                             for name, value in vars(_EXPECTED).items()})
         least = _LEAST if problem.skin.any() else replace(_LEAST, thickness=_LEAST_MASSIVE)
         trust = Trust(**{name: float(np.clip(getattr(expected, name) / max(getattr(cost, name), 1e-12),
@@ -53,14 +54,18 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
 
 def costs(problem: Problem, control_points: Array) -> Trust:
     """What each prior costs at the current shape with its full weight, in chi-square units."""
-    couplings = problem.couplings
-    strain = (problem.stiffness.weight * (strain_at(problem, control_points) ** 2).sum(axis=2)).sum(axis=1)
+    couplings, stiffness, settings = problem.couplings, problem.stiffness, problem.settings
+    normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
+    strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
+    strain = (stiffness.weight * (strain**2).sum(axis=2)).sum(axis=1)
     across, along = couplings.thickness_misfit(control_points, couplings.sheet_normals(control_points))
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return Trust(isometry=float(problem.isometry_weights(Trust())[0] * strain[problem.skin].sum()),
                  thickness=float((weight * across**2).sum()),
                  shear=float((weight[:, None] * along**2).sum()),
-                 dihedral=float((couplings.dihedral_weight[couplings.sharp] * turned**2).sum()))
+                 dihedral=float((couplings.dihedral_weight[couplings.sharp] * turned**2).sum()),
+                 sliding=stiffness.sliding(problem.lattices, control_points, normal)
+                 / (settings.curvature * settings.curvature_length) ** 2)
 
 
 def strain_at(problem: Problem, control_points: Array) -> Array:
