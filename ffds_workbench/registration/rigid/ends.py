@@ -9,6 +9,7 @@ import numpy as np
 from ..splines import Array
 from .motions import apply
 from .rims import Rims
+from .target import workers
 
 _STRIP = 3.0
 """Depth of the strip inside a rim that is looked at, in widths: the density is counted beyond the first width."""
@@ -62,7 +63,7 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends
     if not len(rims.points):
         return _nothing()
     depth = _STRIP * width
-    nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth)[1]
+    nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth, workers=workers(points))[1]
     row = np.flatnonzero(nearest < len(rims.points))
     entry, row = np.concatenate([nearest[row], rims.partner[nearest[row]]]), np.concatenate([row, row])
     chosen = rims.clear(depth)[entry]

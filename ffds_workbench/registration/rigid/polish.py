@@ -15,14 +15,14 @@ from .motions import apply, step
 from .search import field_of
 from .sketch import Sketch, thin
 from .smooth import Outline, settle
-from .target import Target, once_for_target
+from .target import Target, once_for_target, workers
 from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
 _FEW = 500
 """Points that a pose is brought nearer with."""
-_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 4_500, 200_000, 30_000
+_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 24_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
@@ -143,7 +143,8 @@ def _on_one_face(target: Target, points: Array, margin: float) -> tuple[NDArray[
     points : (n, 3) in model coordinates
     margin : in mm, height up to which a point may be on a face
     """
-    distance, index = target.tree.query(points, k=_CANDIDATES, distance_upper_bound=_CLOSE * target.size)
+    distance, index = target.tree.query(points, k=_CANDIDATES, distance_upper_bound=_CLOSE * target.size,
+                                        workers=workers(points))
     within = np.flatnonzero(np.isfinite(distance[:, 0]))
     index = np.where(np.isfinite(distance), index, index[:, :1])[within]
     height = np.abs(np.stack([target.heights(points[within], column)[0] for column in index.T], axis=1))

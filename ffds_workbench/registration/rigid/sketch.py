@@ -152,7 +152,7 @@ def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> ND
     return among
 
 
-def _local_planes(neighbourhoods: Array, rounds: int = 2) -> tuple[Array, Array]:
+def _local_planes(neighbourhoods: Array, rounds: int = 1) -> tuple[Array, Array]:
     """Normal and standard deviation about the plane through (n, k, 3) neighbourhoods, the point itself first.
 
     Repeated with less weight for neighbours off the plane: the other side of a thin sheet is not the same surface.

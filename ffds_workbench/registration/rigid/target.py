@@ -117,11 +117,11 @@ class Target:
         index : (n,) of the sample, 0 where nothing is within reach
         """
         if normals is None:
-            distance, index = self.tree.query(points, distance_upper_bound=reach, workers=_workers(points))
+            distance, index = self.tree.query(points, distance_upper_bound=reach, workers=workers(points))
             return distance, np.where(np.isfinite(distance), index, 0)
         place = np.hstack([points, self._turn_length * normals])
         index = self._sided_tree.query(place, distance_upper_bound=np.hypot(reach, self._turn_length),
-                                        workers=_workers(points))[1]
+                                        workers=workers(points))[1]
         index = np.where(index < len(self.samples.area), index, 0)
         distance = np.linalg.norm(points - self.samples.points[index], axis=1)
         facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING
@@ -214,7 +214,7 @@ def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], R
     return kept
 
 
-def _workers(points: Array) -> int:
+def workers(points: Array) -> int:
     """Threads that a search for so many points is worth."""
     return -1 if len(points) > 4000 else 1
 

@@ -16,7 +16,7 @@ _MOST = 3
 
 def extent(scan: Array) -> float:
     """Diagonal in mm of the box that holds all but the outermost 2 % of the points on each side."""
-    some = scan[:: max(1, len(scan) // 20_000)]
+    some = scan[:: max(1, len(scan) // 5_000)]
     low, high = np.quantile(some, [0.02, 0.98], axis=0)
     return float(np.linalg.norm(high - low))
 
