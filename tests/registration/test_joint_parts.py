@@ -120,6 +120,8 @@ def test_fronts_solve_and_invert_like_a_dense_matrix():
     factor = FrontCholesky(FrontLayout(fronts, rows, columns), blocks)
     right = random.normal(size=len(dense))
     assert factor.solve(right) == pytest.approx(np.linalg.solve(dense, right), abs=1e-10)
+    several = random.normal(size=(len(dense), 3))
+    assert factor.solve_many(several) == pytest.approx(np.linalg.solve(dense, several), abs=1e-10)
     inverse = np.linalg.inv(dense).reshape(len(place), 3, len(place), 3)[rows, :, columns, :]
     assert factor.inverse_blocks() == pytest.approx(inverse, abs=1e-10)
 

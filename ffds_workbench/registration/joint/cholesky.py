@@ -95,6 +95,18 @@ class FrontCholesky:
             x[own] = blas.dtrsv(self.own[number], part, lower=1, trans=1)
         return x
 
+    def solve_many(self, right: Array) -> Array:
+        """x with A x = right for several right-hand sides, (3 nodes, m)."""
+        layout, x = self.layout, right.copy()
+        for factor, border, own, rows in zip(self.own, self.border, layout.own_rows, layout.border_rows, strict=True):
+            x[own] = blas.dtrsm(1.0, factor, x[own], lower=1)
+            x[rows] -= border.T @ x[own]
+        for number in range(len(self.own) - 1, -1, -1):
+            own = layout.own_rows[number]
+            part = x[own] - self.border[number] @ x[layout.border_rows[number]]
+            x[own] = blas.dtrsm(1.0, self.own[number], part, lower=1, trans_a=1)
+        return x
+
     def inverse_blocks(self) -> Array:
         """The blocks of A⁻¹ on the pattern, (n, 3, 3)."""
         layout = self.layout
