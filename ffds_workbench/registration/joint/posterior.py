@@ -18,8 +18,8 @@ _SAME = 1.2
 _PROBES = 16
 
 
-def covariance_blocks(problem: Problem, state: State) -> Array:
-    """Blocks (size, 3, 3) of the covariance on the pattern.
+def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontCholesky]:
+    """Blocks (size, 3, 3) of the covariance on the pattern, and the factor of the last normal equations.
 
     In chi-square units the normal matrix is the inverse of the covariance. What the priors cost, over the number of
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
@@ -35,10 +35,10 @@ def covariance_blocks(problem: Problem, state: State) -> Array:
     # The factor that the solve ends with is of an earlier trust in the priors.
     factor = FrontCholesky(problem.pattern.layout, equations.blocks)
     ratio = paid(problem, state) / max(_told(problem, factor, prior), 1.0)
-    if ratio >= _SAME:
-        prior *= 1 / ratio - 1
-        factor = FrontCholesky(problem.pattern.layout, equations.blocks + prior)
-    return factor.inverse_blocks()
+    if ratio < _SAME:
+        return factor.inverse_blocks(), factor
+    prior *= 1 / ratio - 1
+    return FrontCholesky(problem.pattern.layout, equations.blocks + prior).inverse_blocks(), factor
 
 
 def _told(problem: Problem, factor: FrontCholesky, prior: Array) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..splines import Array
 from .assembly import gather
+from .cholesky import FrontCholesky
 from .problem import Problem
 from .raster import normals
 from .state import State
@@ -18,12 +19,14 @@ _FIELDS, _WAVES = 48, 300
 _CHUNK = 8192
 
 
-def shared_errors(problem: Problem, state: State) -> Array:
-    """Changes of the control points, (fields, controls, 3) in mm, that fields of shared noise cause; none without."""
+def shared_errors(problem: Problem, state: State, factor: FrontCholesky) -> Array:
+    """Changes of the control points, (fields, controls, 3) in mm, that fields of shared noise cause; none without.
+
+    ``factor`` is that of the last normal equations.
+    """
     sensor = problem.settings.sensor
     if not sensor.shared:
         return np.zeros((0, problem.lattices.count, 3))
-    assert state.factor is not None
     shape = problem.cells.inside.shape
     weight = state.values.weight.reshape(shape)
     cells = np.flatnonzero(weight)
@@ -33,8 +36,9 @@ def shared_errors(problem: Problem, state: State) -> Array:
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     rows = weight[:, :, None] * normals(jet, problem.cells.outward)[0]
     table = problem.cells.tables[0]
-    return np.stack([state.factor.solve(gather(problem, np.matmul(table.T, field[:, :, None] * rows)).ravel()
-                                        ).reshape(-1, 3) for field in heights.T.reshape(_FIELDS, *shape)])
+    loads = np.stack([gather(problem, np.matmul(table.T, field[:, :, None] * rows)).ravel()
+                      for field in heights.T.reshape(_FIELDS, *shape)], axis=1)
+    return factor.solve_many(loads).T.reshape(_FIELDS, -1, 3)
 
 
 def _fields(place: Array, length: float, rng: np.random.Generator) -> Array:

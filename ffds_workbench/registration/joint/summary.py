@@ -88,10 +88,10 @@ def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
     """The result with bands and flags."""
-    covariance = covariance_blocks(problem, state)
+    covariance, factor = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
     off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2
-    errors = shared_errors(problem, state)
+    errors = shared_errors(problem, state, factor)
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     return JointRegistration(
         faces=_faces(problem, state, covariance, errors, seen, off),
