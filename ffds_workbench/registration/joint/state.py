@@ -40,7 +40,7 @@ class State:
     strained : `strain_blocks` of a shape near by
     across : along which normals thickness is measured
     turned : how far the shape has moved since, in mm
-    factor : of an earlier normal matrix; after the last stage of one with all data
+    factor : of an earlier normal matrix
     stiff : the multiple of the bending weight in that matrix
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
