@@ -52,7 +52,7 @@ def measure(progress: Progress, sizes: Sequence[int] = SIZES, faces: Sequence[in
     for count, scan in scans.items():
         progress(f"./ffds register with {count:,} points")
         tree, register = seconds[f"tree {count}"], seconds[f"register {count}"]
-        rows.append({"points": count, "tree": tree, "register": register, "builds": register / tree,
+        rows.append({"points": len(scan), "tree": tree, "register": register, "builds": register / tree,
                      **commands(case, scan)})
     return {"sizes": rows, "faces": over_faces(progress, faces)}
 

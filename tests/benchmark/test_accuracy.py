@@ -2,7 +2,7 @@
 """The accuracy and speed benchmarks write their tables; their figures are those of single runs."""
 import json
 
-from ffds_workbench.benchmark import accuracy, accuracy_cases, speed
+from ffds_workbench.benchmark import accuracy, accuracy_cases, speed, speed_whole
 from ffds_workbench.benchmark.accuracy_lines import lines
 from ffds_workbench.benchmark.parts import FAMILIES
 
@@ -53,3 +53,12 @@ def test_speed(tmp_path):
     text = speed.run(tmp_path, lambda message: None, sizes=(20_000, 40_000), repeats=2)
     assert "robust, cylinder" in text
     assert json.loads((tmp_path / "speed.json").read_text())["builds"]["k-d tree"]["builds"] == 1.0
+
+
+def test_speed_of_a_whole_part(monkeypatch):
+    monkeypatch.setattr(speed_whole, "_STARTS", 1)
+    data = speed_whole.measure(lambda message: None, sizes=(10_000,), faces=(1, 4), repeats=1)
+    row = data["sizes"][0]
+    assert row["points"] == 10_000
+    assert 0 < row["written"] < row["ended"] and row["peak_megabytes"] > 50
+    assert [len(table.rows) for table in speed_whole.section(data).tables] == [1, 2]
