@@ -56,6 +56,6 @@ def paid(problem: Problem, state: State) -> float:
     change = stiffness.curvature_change(problem.lattices, state.control_points, normal)
     change -= evenly_bent(problem, state.control_points, normal)[:, None, :]
     bending = float((stiffness.weight * (change**2).sum(axis=2)).sum())
-    cost, trust = costs(problem, state.control_points), state.trust
+    cost, trust = costs(problem, state), state.trust
     return (bending / (settings.curvature * settings.curvature_length) ** 2
             + sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust)))

@@ -65,8 +65,9 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = start(problem)
     steps = stages(settings.schedule, state.reach)
     report("joint solve", 0.0)
-    state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward))
-                            for outward in facing(problem, state.reach)])
+    sides = facing(problem, state.reach)
+    state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward), len(sides) > 1)
+                            for outward in sides])
     for number, stage in enumerate(steps):
         if stage.soft:
             report("joint solve", number / len(steps))
@@ -83,9 +84,11 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     return summarise(problem, state)
 
 
-def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State) -> State:
-    for stage in steps:
-        if not stage.soft and state.last_step > _SETTLED:
+def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
+    """The stiff stages, of which some can be left out; fits that are ``compared`` all end with the last one."""
+    stiff = [stage for stage in steps if not stage.soft]
+    for stage in stiff:
+        if state.last_step > _SETTLED or (compared and stage is stiff[-1]):
             state = run_stage(problem, stage, state)
     return state
 

@@ -41,7 +41,7 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
     """
     trust, mode = Trust(), problem.settings.isometry
     if stage.soft:
-        cost, number = costs(problem, state.control_points), max(1.0, problem.lattices.count / _CONTROLS)
+        cost, number = costs(problem, state), max(1.0, problem.lattices.count / _CONTROLS)
         expected = Trust(**{name: number * value * (stage.allowance if name in _WON_BACK else 1.0)
                             for name, value in vars(_EXPECTED).items()})
         least = _LEAST if problem.skin.any() else replace(_LEAST, thickness=_LEAST_MASSIVE)
@@ -52,13 +52,15 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
     return replace(state, trust=trust)
 
 
-def costs(problem: Problem, control_points: Array) -> Trust:
+def costs(problem: Problem, state: State) -> Trust:
     """What each prior costs at the current shape with its full weight, in chi-square units."""
+    assert state.across is not None
+    control_points = state.control_points
     couplings, stiffness, settings = problem.couplings, problem.stiffness, problem.settings
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
     strain = (stiffness.weight * (strain**2).sum(axis=2)).sum(axis=1)
-    across, along = couplings.thickness_misfit(control_points, couplings.sheet_normals(control_points))
+    across, along = couplings.thickness_misfit(control_points, state.across.normal)
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return Trust(isometry=float(problem.isometry_weights(Trust())[0] * strain[problem.skin].sum()),
                  thickness=float((weight * across**2).sum()),
