@@ -27,7 +27,7 @@ _POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 24_000
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
 _PATCH = 60
-"""Of the even samples, some forty to each of them: the surface around a point, a sixth of the part across."""
+"""Of the even samples, some 2,500, so many are the surface around a point: a sixth of the part across."""
 _CLOSE = 0.02
 """Gate for a part that is not deformed, as a share of its size."""
 _BLURRED, _APART = 1.5, 3.0

@@ -21,7 +21,11 @@ from .verdict import FAILS, answer_of
 from .verify import examine, is_rough
 
 _FEWEST = 50
-_ROTATIONS, _TURN, _POOL, _POINTS, _THIRD = 12, 0.5, 24_000, 1_500, 3
+_ROTATIONS, _TURN = 12, 0.5
+"""Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
+_POOL, _POINTS, _THIRD = 24_000, 1_500, 3
+"""Points of the scan that are looked at; those that tell sides, and a deformation; and every which of them is matched
+while a pose is only on trial."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 8

@@ -123,7 +123,7 @@ def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
     """Index of a point in each of the cells (n, 3), numbered from 0, that hold any."""
     shape = cell.max(axis=0) + 1
     key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
-    if shape.prod() > _DENSE * len(cell):
+    if np.prod(shape, dtype=float) > _DENSE * len(cell):
         return np.unique(key, return_index=True)[1]
     first = np.full(shape.prod(), -1, dtype=np.intp)
     first[key] = np.arange(len(cell))
