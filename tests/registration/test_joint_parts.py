@@ -9,10 +9,13 @@ import Part  # noqa: E402
 
 from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
 from ffds_workbench.brep.workpiece import read  # noqa: E402
+from ffds_workbench.registration.joint import JointSettings  # noqa: E402
+from ffds_workbench.registration.joint.boundary import find_borders, find_near_edges  # noqa: E402
 from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout  # noqa: E402
 from ffds_workbench.registration.joint.dissection import dissect  # noqa: E402
 from ffds_workbench.registration.joint.ends import exact_ends  # noqa: E402
 from ffds_workbench.registration.joint.lattice import build_lattices, cubic  # noqa: E402
+from ffds_workbench.registration.joint.problem import make_problem  # noqa: E402
 from ffds_workbench.registration.joint.raster import make_places, normals  # noqa: E402
 from ffds_workbench.registration.joint.statistics import scan_statistics  # noqa: E402
 from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness  # noqa: E402
@@ -142,6 +145,36 @@ def test_statistics_of_a_plane():
     # Sixteen neighbours: the density's median is biased by some per cent, the plane's fit by the third dimension.
     assert found.density == pytest.approx(10, rel=0.3)
     assert found.noise == pytest.approx(0.1, rel=0.3)
+
+
+def plate_problem(random):
+    """A plate of 50 × 40 × 2 mm whose upper face was seen by 10 points per mm² at random, without noise."""
+    part = joint_part(read(Part.makeBox(50.0, 40.0, 2.0)))
+    scan = np.column_stack([random.uniform(0, [50, 40], (20000, 2)), np.full(20000, 2.0)])
+    return make_problem(part, scan, JointSettings(), {})
+
+
+def test_points_at_random_put_edges_where_they_are():
+    problem = plate_problem(np.random.default_rng(11))
+    still = np.zeros((problem.lattices.count, 3))
+    near = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, still, None)
+    found = find_borders(near, problem.couplings.edges, problem.sides, still, problem.statistics.noise)
+    # The outermost of 10 points per mm² in strips of 40/32 mm or more: exponential, its deviation 0.08 mm or less.
+    assert len(found.offset) > 100
+    assert abs(found.offset.mean()) < 3 * 0.08 / np.sqrt(len(found.offset))
+
+
+def test_thickness_is_measured_along_the_current_normal():
+    """Raised by a parabola without turning, a plate of thickness t is t cos θ thick where its slope is θ."""
+    problem = plate_problem(np.random.default_rng(12))
+    couplings, sharpness = problem.couplings, 0.004
+    points = fitted(problem.lattices, problem.part.faces,
+                    lambda at: np.column_stack([np.zeros((len(at), 2)), sharpness * (at[:, 1] - 20) ** 2]))
+    normal = couplings.sheet_normals(points)
+    cosine = 1 / np.hypot(1, 2 * sharpness * (couplings.pairs.front.nominal[0][:, 1] - 20))
+    # A parabola is a cubic spline: equal up to rounding.
+    assert np.abs(normal[:, 2]) == pytest.approx(cosine, abs=1e-9)
+    assert couplings.thickness_misfit(points, normal)[0] == pytest.approx(2 * (1 - cosine), abs=1e-9)
 
 
 def test_a_sheet_that_moved_by_its_thickness_keeps_its_sides():
