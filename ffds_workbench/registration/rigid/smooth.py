@@ -30,7 +30,7 @@ the least cut-off in mm for them, as each is counted from few points."""
 _ON = 0.008
 """Height, as a share of the part's size, up to which a point lies on it."""
 _SLIDES, _STEPS = 1, 3
-_ROUGHLY, _MORE = 500, 2
+_ROUGHLY, _MORE = 1_000, 3
 """Points for the first match, and rounds of a match that starts from the last one."""
 
 
