@@ -37,12 +37,14 @@ def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: Cel
     normal, weight = normal[used], weight[used]
     for a, b in COMPONENTS:
         products = _table_products(problem, weight * normal[:, :, a] * normal[:, :, b])
-        _add_symmetric(equations, a, b, problem.pattern.from_spans(products, used))
+        add_products(equations, problem, a, b, products, used)
     pull = (weight * values.height.reshape(shape)[used])[:, :, None] * normal
     np.add(equations.right, gather(problem, np.matmul(table.T, pull), used), out=equations.right)
 
 
-def _add_symmetric(equations: NormalEquations, a: int, b: int, values: Array) -> None:
+def add_products(equations: NormalEquations, problem: Problem, a: int, b: int, products: Array, spans: Index) -> None:
+    """Add products (n, 16, 16) of basis functions on spans (n,) to components ab and ba."""
+    values = problem.pattern.from_spans(products, spans)
     equations.blocks[:, a, b] += values
     if a != b:
         equations.blocks[:, b, a] += values
@@ -77,7 +79,7 @@ def add_borders(equations: NormalEquations, problem: Problem, borders: Borders) 
     products = (borders.weight[:, None, None] * basis[:, :, None] * basis[:, None, :])[order]
     for a, b in COMPONENTS:
         values = np.add.reduceat(products * (m[order, a] * m[order, b])[:, None, None], first)
-        _add_symmetric(equations, a, b, problem.pattern.from_spans(values, spans))
+        add_products(equations, problem, a, b, values, spans)
     pull = (borders.weight * borders.offset)[:, None, None] * basis[:, :, None] * m[:, None, :]
     np.add(equations.right, gather(problem, pull, samples.span), out=equations.right)
 

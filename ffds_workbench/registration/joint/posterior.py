@@ -6,6 +6,7 @@ import numpy as np
 
 from ..splines import Array
 from .assembly import add_borders, add_data, evenly_bent, shape_equations
+from .body import add_body
 from .boundary import find_borders
 from .cholesky import FrontCholesky
 from .problem import Problem
@@ -32,6 +33,8 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontChole
     add_data(equations, problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
     add_borders(equations, problem, find_borders(near, problem.couplings.edges, problem.sides, state.control_points,
                                                  problem.statistics.noise))
+    if state.body is not None:
+        add_body(equations, problem, state.control_points, state.body, state.trust)
     # The factor that the solve ends with is of an earlier trust in the priors.
     factor = FrontCholesky(problem.pattern.layout, equations.blocks)
     ratio = paid(problem, state) / max(_told(problem, factor, prior), 1.0)

@@ -15,6 +15,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..splines import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
+from .body import add_body, body_rows
 from .boundary import find_borders, find_near_edges
 from .correspondence import correspond, make_frames
 from .ends import exact_ends
@@ -98,7 +99,7 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     state = replace(state, nearest=None if stage.all_points else state.nearest)
     if stage.soft:
         state = replace(state, across=problem.across(state.control_points),
-                        factor=None if stage.all_points else state.factor)
+                        factor=None if stage.all_points else state.factor, body=None)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))
         if state.last_step < stage.enough:
@@ -132,11 +133,15 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
         borders = find_borders(near_edges, problem.couplings.edges, problem.sides, state.control_points,
                                problem.statistics.noise)
         add_borders(equations, problem, borders)
+    body = state.body
+    if stage.all_points:
+        body = body_rows(problem, state.control_points, jet, values, borders, body)
+        add_body(equations, problem, state.control_points, body, state.trust)
     near = state.factor if stage.bending > _SOFTER * state.stiff else None
     step, factor = solve(problem.pattern, equations.blocks, equations.right, near)
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     return replace(state, control_points=state.control_points + step, factor=factor,
                    stiff=stage.bending if factor is not near else state.stiff, values=values, noise=values.noise,
-                   nearest=found.nearest, near_edges=near_edges, strained=strained, across=across,
+                   body=body, nearest=found.nearest, near_edges=near_edges, strained=strained, across=across,
                    turned=turned + last_step, last_step=last_step, iterations=state.iterations + 1)

@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..splines import Array
+from .body import BodyRows
 from .boundary import NearEdges
 from .cholesky import FrontCholesky
 from .lattice import Index
@@ -38,6 +39,7 @@ class State:
     near_edges : scan points near the edges, once they are needed, found on a shape that is hardly another
     nearest : nearest cells of the scan points of this stage, while the shape hardly moves
     strained : `strain_blocks` of a shape near by
+    body : what the body tells of its faces, in the last stage
     across : along which normals thickness is measured
     turned : how far the shape has moved since, in mm
     factor : of an earlier normal matrix
@@ -56,6 +58,7 @@ class State:
     near_edges: NearEdges | None = None
     nearest: Index | None = None
     strained: Array | None = None
+    body: BodyRows | None = None
     across: Across | None = None
     turned: float = 0.0
     factor: FrontCholesky | None = None

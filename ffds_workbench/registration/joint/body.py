@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the body tells of its faces: how they slide in themselves, and where those lie that nothing shows.
+
+A scan tells of a face only where it lies along its normal. But a body deforms as one: its displacement is smooth in
+space, and where faces look in many directions, their normal components together tell of the others.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from ..splines import Array
+from .assembly import NormalEquations, add_products, gather
+from .boundary import Borders
+from .kriging import Model, Observations, condition, likeliest
+from .lattice import Index
+from .problem import Problem
+from .raster import Jet, normals
+from .settings import Trust
+from .stiffness import COMPONENTS
+from .values import CellValues
+
+_PATCHES = 4
+"""Patches per direction of a span whose heights are averaged: small against what the field changes over."""
+_MOST = 1500
+"""Patches that are taken, at random: a matrix of as many rows is factorised."""
+_LEAST_SEEN = 0.1
+"""Patches with less than this of the usual weight are left out."""
+_BORDERS = 3
+"""One border row of so many: they stand close, and what is wrong of them is wrong of their neighbours too."""
+_STEPS = 3
+"""Steps with all points after which the field is settled."""
+_SHEET = 0.2
+"""Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
+at neighbouring spans are nearly the same."""
+
+
+@dataclass(frozen=True)
+class BodyRows:
+    """Where the body has the middles of spans: Σ B d = place within the precision.
+
+    Attributes
+    ----------
+    model : of the field
+    steps : that led to them
+    spans : (n,)
+    basis : (n, 16) basis functions at the places
+    displacement : (n, 3) in mm
+    precision : (n, 3, 3) in 1/mm²
+    sheet : (n,) whether the span belongs to a sheet
+    """
+
+    model: Model
+    steps: int
+    spans: Index
+    basis: Array
+    displacement: Array
+    precision: Array
+    sheet: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """A rigid motion, as a displacement."""
+
+    turn: Rotation
+    before: Array
+    after: Array
+
+    @classmethod
+    def of(cls, nominal: Array, moved: Array) -> _Motion:
+        """The one that brings places (n, 3) nearest to where they are now."""
+        before, after = nominal.mean(axis=0), moved.mean(axis=0)
+        return cls(Rotation.align_vectors(moved - after, nominal - before)[0], before, after)
+
+    def __call__(self, place: Array) -> Array:
+        return self.turn.apply(place - self.before) + self.after - place
+
+
+def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellValues, borders: Borders,
+              earlier: BodyRows | None) -> BodyRows:
+    """Rows at the current shape ``jet`` of the cells; those of an earlier step are the same after a few."""
+    if earlier is not None and earlier.steps == _STEPS:
+        return earlier
+    seen = _observe(problem, control_points, jet, values, borders)
+    cells, shape = problem.cells, problem.cells.inside.shape
+    shown = values.weight.reshape(shape) > 0
+    motion = _Motion.of(cells.nominal.position[shown], jet.position[shown])
+    seen = replace(seen, value=seen.value - np.einsum("nx,nx->n", seen.direction, motion(seen.place)))
+    model = earlier.model if earlier else likeliest(seen)
+    field = condition(model, seen)
+    spans = np.flatnonzero(cells.inside.any(axis=1))
+    middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
+    place = cells.nominal.position[spans, middle]
+    body = _bodies(problem)[problem.lattices.face_of_span[spans]]
+    mean, covariance = field.predict(place, body)
+    sheet = np.array(problem.couplings.pairs.solid_thickness)[body] > 0
+    covariance += model.variance * model.noise * np.eye(3)
+    return BodyRows(model, earlier.steps + 1 if earlier else 1, spans, cells.tables[0][middle],
+                    mean + motion(place), np.linalg.inv(covariance), sheet)
+
+
+def add_body(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,
+             trust: Trust) -> None:
+    """Add the rows of the body at the current shape; of sheets as far as they are not isometric."""
+    share = np.where(rows.sheet, _SHEET * (1 - trust.isometry), 1.0)
+    precision = share[:, None, None] * rows.precision
+    products = rows.basis[:, :, None] * rows.basis[:, None, :]
+    for a, b in COMPONENTS:
+        add_products(equations, problem, a, b, precision[:, a, b, None, None] * products, rows.spans)
+    now = np.einsum("nc,ncx->nx", rows.basis, control_points[problem.lattices.controls[rows.spans]])
+    pull = np.einsum("nxy,ny->nx", precision, rows.displacement - now)
+    np.add(equations.right, gather(problem, rows.basis[:, :, None] * pull[:, None, :], rows.spans), out=equations.right)
+
+
+def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellValues, borders: Borders) -> Observations:
+    """The displacement along the current normals, patch by patch, and across some of the visible borders."""
+    cells, shape = problem.cells, problem.cells.inside.shape
+    weight = values.weight.reshape(shape)
+    patch = (_PATCHES * cells.local).astype(int) @ (1, _PATCHES)
+    member = (patch[:, None] == np.arange(_PATCHES**2)).astype(float)
+    total = weight @ member
+    height = ((weight * values.height.reshape(shape)) @ member) / np.maximum(total, 1e-12)
+    usual = np.median(total[total > 0])
+    span, part = np.nonzero(total > _LEAST_SEEN * usual)
+    rank = np.random.default_rng(problem.settings.seed).permutation(total.size).reshape(total.shape)[span, part]
+    pick = np.argsort(rank)[:_MOST]
+    span, part = span[pick], part[pick]
+    middle = np.stack([(weight * place) @ member for place in cells.local.T], axis=2)[span, part]
+    away = ((cells.local - (middle / total[span, part, None])[:, None]) ** 2).sum(axis=2)
+    cell = np.where(weight[span] > 0, away, np.inf).argmin(axis=1)
+    nominal = cells.nominal.position[span, cell]
+    normal = normals(jet, cells.outward)[0][span, cell]
+    along = np.einsum("nx,nx->n", normal, jet.position[span, cell] - nominal) + height[span, part]
+    body = _bodies(problem)
+    some = np.arange(0, len(borders.offset), _BORDERS)
+    edge, out = borders.samples.take(some), borders.direction[some]
+    across = np.einsum("nx,nx->n", out, edge.displacement(control_points)) + borders.offset[some]
+    return Observations(np.concatenate([nominal, edge.nominal[0]]), np.concatenate([normal, out]),
+                        np.concatenate([body[problem.lattices.face_of_span[span]], body[edge.face]]),
+                        np.concatenate([along, across]), np.concatenate([usual / total[span, part], 0 * across]),
+                        np.concatenate([0 * along, 1 / borders.weight[some]]))
+
+
+def _bodies(problem: Problem) -> Index:
+    """Number of the solid that a face belongs to: (faces,)."""
+    owner = np.zeros(len(problem.part.faces), dtype=np.intp)
+    for number, solid in enumerate(problem.part.solids):
+        owner[solid] = number
+    return owner

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Kriging of a displacement in space from single components of it: Gaussian process regression of a vector field.
+
+Formulas and their numbers are those of Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006. The three
+components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8).
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.linalg import cho_solve, cholesky, solve_triangular
+from scipy.spatial.distance import cdist
+
+from ..splines import Array
+from .lattice import Index
+
+_LENGTHS = (0.06, 0.1, 0.16, 0.25, 0.4, 0.7)
+"""Tried for the length over which the field changes, relative to the extent of the places."""
+_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
+"""Tried for the variance of the noise, relative to that of the field."""
+_LEAST = 1e-12
+"""Variance in mm² of a part that has not moved at all."""
+_FEW = 400
+"""Observations that the likelihood is computed from."""
+
+
+@dataclass(frozen=True)
+class Observations:
+    """What is known of the field: direction · f(place) = value, give or take √variance.
+
+    Attributes
+    ----------
+    place, direction : (n, 3) in mm, and unit vectors
+    body : (n,) number of the body that a place belongs to
+    value : (n,) in mm
+    noise : (n,) variance relative to the noise that is common to all, which is found; 0 where it is known
+    variance : (n,) known variance in mm², 0 where it is to be found
+    """
+
+    place: Array
+    direction: Array
+    body: Index
+    value: Array
+    noise: Array
+    variance: Array
+
+    def take(self, which: Index) -> Observations:
+        return Observations(*(values[which] for values in vars(self).values()))
+
+
+@dataclass(frozen=True)
+class Model:
+    """A field of one kind: ``smooth`` to all orders, or with two derivatives; bodies ``apart`` move by themselves.
+
+    ``length`` in mm, ``variance`` of a component in mm², ``noise`` relative to it.
+    """
+
+    smooth: bool
+    apart: bool
+    length: float
+    variance: float = 1.0
+    noise: float = 0.0
+
+    def correlation(self, first: Array, first_body: Index, second: Array, second_body: Index) -> Array:
+        """Between places (n, 3) and (m, 3): (n, m), the squared exponential (4.9) or Matérn 5/2 (4.17)."""
+        distance = cdist(first, second) / self.length
+        if self.smooth:
+            result: Array = np.exp(-0.5 * distance**2)
+        else:
+            scaled = np.sqrt(5.0) * distance
+            result = (1 + scaled + scaled**2 / 3) * np.exp(-scaled)
+        return result * (first_body[:, None] == second_body) if self.apart else result
+
+    def between(self, seen: Observations) -> Array:
+        """Covariance of the observations without noise, over the variance: (n, n)."""
+        return self.correlation(seen.place, seen.body, seen.place, seen.body) * (seen.direction @ seen.direction.T)
+
+
+@dataclass(frozen=True)
+class Field:
+    """The field given the observations."""
+
+    model: Model
+    seen: Observations
+    factor: Array
+    weight: Array
+
+    def predict(self, place: Array, body: Index) -> tuple[Array, Array]:
+        """Mean (n, 3) in mm and covariance (n, 3, 3) in mm² at places (n, 3) on bodies (n,) (2.25, 2.26)."""
+        across = self.model.correlation(self.seen.place, self.seen.body, place, body)
+        cross = (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
+        mean = (self.weight @ cross).reshape(-1, 3)
+        known = solve_triangular(self.factor, cross, lower=True, check_finite=False).reshape(len(across), -1, 3)
+        explained = np.matmul(known.transpose(1, 2, 0), known.transpose(1, 0, 2))
+        return mean, self.model.variance * (np.eye(3) - explained)
+
+
+def likeliest(seen: Observations) -> Model:
+    """The likeliest model, its variance in closed form."""
+    few = seen.take(np.flatnonzero(seen.noise > 0)[:_FEW])
+    extent = float(np.linalg.norm(np.ptp(few.place, axis=0)))
+    kinds = product((True, False), (False, True) if np.ptp(few.body) else (False,), _LENGTHS)
+    best, result = -np.inf, Model(True, False, extent)
+    for smooth, apart, length in kinds:
+        model = Model(smooth, apart, length * extent)
+        between = model.between(few)
+        for noise in _NOISES:
+            factor = cholesky(between + np.diag(noise * few.noise), lower=True, check_finite=False)
+            white = solve_triangular(factor, few.value, lower=True, check_finite=False)
+            variance = max(float(white @ white) / len(white), _LEAST)
+            score = -0.5 * len(white) * np.log(variance) - np.log(np.diag(factor)).sum()
+            if score > best:
+                best, result = score, Model(smooth, apart, model.length, variance, noise)
+    return result
+
+
+def condition(model: Model, seen: Observations) -> Field:
+    """The field of a model given the observations."""
+    variance = model.noise * seen.noise + seen.variance / model.variance
+    factor = cholesky(model.between(seen) + np.diag(variance), lower=True, check_finite=False)
+    return Field(model, seen, factor, cho_solve((factor, True), seen.value, check_finite=False))

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Kriging against displacements in closed form that are observed along the normals of a cube alone."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ffds_workbench.registration.joint.kriging import Model, Observations, condition, likeliest
+
+HALF, NOISE = 30.0, 0.01
+
+
+def _cube(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places on the faces of a cube, and their normals."""
+    generator = np.random.default_rng(seed)
+    place = generator.uniform(-HALF, HALF, (count, 3))
+    normal = np.zeros((count, 3))
+    normal[np.arange(count), generator.integers(3, size=count)] = generator.choice([-1.0, 1.0], count)
+    return np.where(normal != 0, HALF * normal, place), normal
+
+
+def _bulge(place: np.ndarray) -> np.ndarray:
+    """A bump that moves sideways, as large as the cube."""
+    weight = np.exp(-((place - (20.0, 10.0, 15.0)) ** 2).sum(axis=1) / (2 * 25.0**2))
+    return weight[:, None] * (0.6, -0.9, 1.2)
+
+
+def _observed(field, count: int = 900, seed: int = 1, body: np.ndarray | None = None) -> Observations:
+    place, normal = _cube(count, seed)
+    value = (normal * field(place)).sum(axis=1) + NOISE * np.random.default_rng(seed + 1).normal(size=count)
+    body = np.zeros(count, dtype=np.intp) if body is None else body
+    return Observations(place, normal, body, value, np.ones(count), np.zeros(count))
+
+
+def test_sliding_follows_from_what_is_seen_along_the_normals():
+    seen = _observed(_bulge)
+    place, normal = _cube(200, 7)
+    mean, covariance = condition(likeliest(seen), seen).predict(place, np.zeros(200, dtype=np.intp))
+    error = mean - _bulge(place)
+    slid = np.linalg.norm(np.where(normal != 0, 0.0, _bulge(place)), axis=1)
+    # Along the normals alone nothing of it is seen: all would be lost. What is still lost, the covariance says below.
+    assert np.linalg.norm(np.where(normal != 0, 0.0, error), axis=1).mean() < slid.mean() / 3
+    # Three components: the mean of the squared error in its own covariance is 3. Errors are those of one field, few
+    # independent numbers: within a factor of two.
+    squared = np.einsum("nx,nxy,ny->n", error, np.linalg.inv(covariance), error)
+    assert 0.5 * 3 < squared.mean() < 2 * 3
+
+
+def test_the_likeliest_model_finds_the_noise():
+    model = likeliest(_observed(_bulge))
+    # Noises are tried in steps of ten in variance: half a step is a factor of √√10 = 1.8 in deviation.
+    assert NOISE / 1.8 < np.sqrt(model.variance * model.noise) < 1.8 * NOISE
+
+
+def test_bodies_that_move_by_themselves_are_told():
+    body = (_cube(900, 1)[0][:, 0] > 0).astype(np.intp)
+
+    def opposite(place: np.ndarray) -> np.ndarray:
+        return np.where(place[:, :1] > 0, 1.0, -1.0) * (0.0, 0.5, 0.3)
+
+    assert likeliest(_observed(opposite, body=body)).apart
+    assert not likeliest(_observed(_bulge, body=body)).apart
+
+
+def test_a_known_variance_counts():
+    seen = Observations(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), np.zeros(1, dtype=np.intp), np.array([1.0]),
+                        np.zeros(1), np.array([0.25]))
+    field = condition(Model(smooth=True, apart=False, length=10.0, variance=0.75, noise=0.0), seen)
+    mean, covariance = field.predict(np.zeros((1, 3)), np.zeros(1, dtype=np.intp))
+    # One observation of one number: mean = 1 · 0.75 / (0.75 + 0.25), variance = 1 / (1/0.75 + 1/0.25).
+    assert mean[0] == pytest.approx([0.0, 0.0, 0.75])
+    assert np.diag(covariance[0]) == pytest.approx([0.75, 0.75, 0.1875])
