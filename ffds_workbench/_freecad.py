@@ -12,6 +12,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from . import ROOT
 from .errors import InputError
 
 _FOLDERS = ("/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib", "/usr/lib64/freecad/lib",
@@ -40,6 +41,8 @@ def activate() -> None:
     if importlib.util.find_spec("FreeCAD") is None:
         _put_on_path()
     importlib.import_module("FreeCAD")  # Part crashes the interpreter where it is imported before FreeCAD
+    # FreeCAD puts its modules first: a copy of FFDS among them would be taken by the processes that are started here.
+    sys.path[:] = [str(ROOT), *(path for path in sys.path if path != str(ROOT))]
 
 
 def _put_on_path() -> None:

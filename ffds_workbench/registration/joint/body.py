@@ -31,7 +31,7 @@ _LEAST_SEEN = 0.1
 """Patches with less than this of the usual weight are left out."""
 _BORDERS = 3
 """One border row of so many: they stand close, and what is wrong of them is wrong of their neighbours too."""
-_STEPS = 3
+_STEPS = 2
 """Steps with all points after which the field is settled."""
 _SHEET = 0.2
 """Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
