@@ -35,8 +35,8 @@ def _observed(field, count: int = 900, seed: int = 1, body: np.ndarray | None = 
 def test_sliding_follows_from_what_is_seen_along_the_normals():
     seen = _observed(_bulge)
     place, normal = _cube(200, 7)
-    mean, covariance = condition(likeliest(seen), seen).predict(place, np.zeros(200, dtype=np.intp))
-    error = mean - _bulge(place)
+    field, body = condition(likeliest(seen), seen), np.zeros(200, dtype=np.intp)
+    error, covariance = field.mean(place, body) - _bulge(place), field.covariance(place, body)
     slid = np.linalg.norm(np.where(normal != 0, 0.0, _bulge(place)), axis=1)
     # Along the normals alone nothing of it is seen: all would be lost. What is still lost, the covariance says below.
     assert np.linalg.norm(np.where(normal != 0, 0.0, error), axis=1).mean() < slid.mean() / 3
@@ -66,7 +66,7 @@ def test_a_known_variance_counts():
     seen = Observations(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), np.zeros(1, dtype=np.intp), np.array([1.0]),
                         np.zeros(1), np.array([0.25]))
     field = condition(Model(smooth=True, apart=False, length=10.0, variance=0.75, noise=0.0), seen)
-    mean, covariance = field.predict(np.zeros((1, 3)), np.zeros(1, dtype=np.intp))
+    where = np.zeros((1, 3)), np.zeros(1, dtype=np.intp)
     # One observation of one number: mean = 1 · 0.75 / (0.75 + 0.25), variance = 1 / (1/0.75 + 1/0.25).
-    assert mean[0] == pytest.approx([0.0, 0.0, 0.75])
-    assert np.diag(covariance[0]) == pytest.approx([0.75, 0.75, 0.1875])
+    assert field.mean(*where)[0] == pytest.approx([0.0, 0.0, 0.75])
+    assert np.diag(field.covariance(*where)[0]) == pytest.approx([0.75, 0.75, 0.1875])

@@ -96,11 +96,12 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellVal
     middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
     place = cells.nominal.position[spans, middle]
     body = _bodies(problem)[problem.lattices.face_of_span[spans]]
-    mean, covariance = field.predict(place, body)
+    displacement = field.mean(place, body) + motion(place)
+    if earlier is not None:
+        return replace(earlier, steps=earlier.steps + 1, displacement=displacement)
+    covariance = field.covariance(place, body) + model.variance * model.noise * np.eye(3)
     sheet = np.array(problem.couplings.pairs.solid_thickness)[body] > 0
-    covariance += model.variance * model.noise * np.eye(3)
-    return BodyRows(model, earlier.steps + 1 if earlier else 1, spans, cells.tables[0][middle],
-                    mean + motion(place), np.linalg.inv(covariance), sheet)
+    return BodyRows(model, 1, spans, cells.tables[0][middle], displacement, np.linalg.inv(covariance), sheet)
 
 
 def add_body(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,

@@ -87,14 +87,20 @@ class Field:
     factor: Array
     weight: Array
 
-    def predict(self, place: Array, body: Index) -> tuple[Array, Array]:
-        """Mean (n, 3) in mm and covariance (n, 3, 3) in mm² at places (n, 3) on bodies (n,) (2.25, 2.26)."""
+    def mean(self, place: Array, body: Index) -> Array:
+        """Mean (n, 3) in mm at places (n, 3) on bodies (n,) (2.25)."""
+        return (self.weight @ self._cross(place, body)).reshape(-1, 3)
+
+    def covariance(self, place: Array, body: Index) -> Array:
+        """Covariance (n, 3, 3) in mm² of the field there, without noise (2.26)."""
+        cross = self._cross(place, body)
+        known = solve_triangular(self.factor, cross, lower=True, check_finite=False).reshape(len(cross), -1, 3)
+        return self.model.variance * (np.eye(3) - np.matmul(known.transpose(1, 2, 0), known.transpose(1, 0, 2)))
+
+    def _cross(self, place: Array, body: Index) -> Array:
+        """Between the observations and all components there: (observations, 3 n)."""
         across = self.model.correlation(self.seen.place, self.seen.body, place, body)
-        cross = (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
-        mean = (self.weight @ cross).reshape(-1, 3)
-        known = solve_triangular(self.factor, cross, lower=True, check_finite=False).reshape(len(across), -1, 3)
-        explained = np.matmul(known.transpose(1, 2, 0), known.transpose(1, 0, 2))
-        return mean, self.model.variance * (np.eye(3) - explained)
+        return (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
 
 
 def likeliest(seen: Observations) -> Model:
