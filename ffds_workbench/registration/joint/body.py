@@ -15,7 +15,8 @@ from scipy.spatial.transform import Rotation
 from ..splines import Array
 from .assembly import NormalEquations, add_products, gather
 from .boundary import Borders
-from .kriging import Model, Observations, condition, likeliest
+from .couplings import pose_weight
+from .kriging import Model, Observations, Pose, condition, likeliest
 from .lattice import Index
 from .problem import Problem
 from .raster import Jet, normals
@@ -31,6 +32,8 @@ _LEAST_SEEN = 0.1
 """Patches with less than this of the usual weight are left out."""
 _BORDERS = 3
 """One border row of so many: they stand close, and what is wrong of them is wrong of their neighbours too."""
+_POSED = 200
+"""Places whose pose stays as the solve has it: turns that nothing shows are not to follow what is left of errors."""
 _STEPS = 2
 """Steps with all points after which the field is settled."""
 _SHEET = 0.2
@@ -91,7 +94,9 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellVal
     motion = _Motion.of(cells.nominal.position[shown], jet.position[shown])
     seen = replace(seen, value=seen.value - np.einsum("nx,nx->n", seen.direction, motion(seen.place)))
     model = earlier.model if earlier else likeliest(seen)
-    field = condition(model, seen)
+    some = np.arange(0, len(seen.value), 1 + len(seen.value) // _POSED)
+    pose = Pose.of(seen.place[some], seen.body[some])
+    field = condition(model, seen, pose, 1 / pose_weight(problem.settings, len(problem.scan) / problem.statistics.noise**2))
     spans = np.flatnonzero(cells.inside.any(axis=1))
     middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
     place = cells.nominal.position[spans, middle]

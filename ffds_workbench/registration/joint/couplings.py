@@ -151,6 +151,11 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
                      smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
 
+def pose_weight(settings: JointSettings, information: float) -> float:
+    """What is known of the pose of a solid before it is seen, in 1/mm²."""
+    return max(settings.pose_sigma**-2, _PRIOR_SHARE * information)
+
+
 def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
     """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs.
 
@@ -158,7 +163,7 @@ def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, inform
     body of revolution about its axis) must not follow what is left of errors elsewhere.
     """
     weight = np.zeros(lattices.count)
-    prior = max(settings.pose_sigma**-2, _PRIOR_SHARE * information)
+    prior = pose_weight(settings, information)
     for solid in part.solids:
         own = np.isin(lattices.face_of_control, solid)
         weight[own] = prior / max(own.sum(), 1)

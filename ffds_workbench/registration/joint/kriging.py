@@ -79,11 +79,31 @@ class Model:
 
 
 @dataclass(frozen=True)
+class Pose:
+    """Six means of a field over places (q, 3) on bodies (q,): how far it moves and turns them as a whole.
+
+    ``rows`` (6, q, 3) give them in mm, turns as the movement that they make.
+    """
+
+    place: Array
+    body: Index
+    rows: Array
+
+    @classmethod
+    def of(cls, place: Array, body: Index) -> Pose:
+        arm = place - place.mean(axis=0)
+        arm /= max(float(np.sqrt((arm**2).sum(axis=1).mean())), 1e-12)
+        rows = [np.broadcast_to(axis, arm.shape) for axis in np.eye(3)] + [np.cross(axis, arm) for axis in np.eye(3)]
+        return cls(place, body, np.stack(rows) / len(place))
+
+
+@dataclass(frozen=True)
 class Field:
-    """The field given the observations."""
+    """The field given the observations, and a pose that it is known to have."""
 
     model: Model
     seen: Observations
+    pose: Pose
     factor: Array
     weight: Array
 
@@ -98,9 +118,16 @@ class Field:
         return self.model.variance * (np.eye(3) - np.matmul(known.transpose(1, 2, 0), known.transpose(1, 0, 2)))
 
     def _cross(self, place: Array, body: Index) -> Array:
-        """Between the observations and all components there: (observations, 3 n)."""
+        """Between what is known and all components there: (observations + 6, 3 n)."""
         across = self.model.correlation(self.seen.place, self.seen.body, place, body)
-        return (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
+        seen = (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
+        return np.concatenate([seen, _with_pose(self.model, self.pose, place, body).reshape(6, -1)])
+
+
+def _with_pose(model: Model, pose: Pose, place: Array, body: Index) -> Array:
+    """Between the pose and the components at places (n, 3): (6, n, 3)."""
+    across = model.correlation(place, body, pose.place, pose.body)
+    return np.matmul(across, pose.rows)
 
 
 def likeliest(seen: Observations) -> Model:
@@ -122,8 +149,13 @@ def likeliest(seen: Observations) -> Model:
     return result
 
 
-def condition(model: Model, seen: Observations) -> Field:
-    """The field of a model given the observations."""
-    variance = model.noise * seen.noise + seen.variance / model.variance
-    factor = cholesky(model.between(seen) + np.diag(variance), lower=True, check_finite=False)
-    return Field(model, seen, factor, cho_solve((factor, True), seen.value, check_finite=False))
+def condition(model: Model, seen: Observations, pose: Pose, pose_variance: float) -> Field:
+    """The field of a model given the observations, and that its pose is zero within a variance in mm²."""
+    with_seen = np.einsum("jnx,nx->jn", _with_pose(model, pose, seen.place, seen.body), seen.direction)
+    with_pose = np.einsum("jqx,iqx->ji", _with_pose(model, pose, pose.place, pose.body), pose.rows)
+    between = np.block([[model.between(seen), with_seen.T], [with_seen, with_pose]])
+    variance = np.append(model.noise * seen.noise + seen.variance / model.variance,
+                         np.full(6, pose_variance / model.variance))
+    factor = cholesky(between + np.diag(variance), lower=True, check_finite=False)
+    known = np.append(seen.value, np.zeros(6))
+    return Field(model, seen, pose, factor, cho_solve((factor, True), known, check_finite=False))

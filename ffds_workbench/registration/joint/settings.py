@@ -22,6 +22,7 @@ class Stage:
     enough : the stage is over when no point moves farther in a step, in mm
     soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
+    body : what the body tells of its faces counts as well, and the priors keep the trust that they have
     allowance : multiplies what the priors, save thickness and sliding, may cost before they are trusted less
     """
 
@@ -31,6 +32,7 @@ class Stage:
     enough: float
     soft: bool = False
     all_points: bool = False
+    body: bool = False
     allowance: float = 1.0
 
 
@@ -48,7 +50,8 @@ class Trust:
 
 
 SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
-            Stage(1, 1.2, 8, 0.03, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True))
+            Stage(1, 1.2, 8, 0.03, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True),
+            Stage(1, 0.6, 4, 0.02, soft=True, all_points=True, body=True))
 
 
 def stages(schedule: tuple[Stage, ...], reach: float) -> tuple[Stage, ...]:

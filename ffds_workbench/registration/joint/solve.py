@@ -78,8 +78,9 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
         report("finer lattice", 1.0)
         coarse, problem = problem, make_problem(part, scan, settings, finer)
         state = transfer(coarse, problem, state)
-        for stage in steps[-2:]:
-            state = run_stage(problem, stage, state)
+        for stage in steps:
+            if stage.soft:
+                state = run_stage(problem, stage, state)
     state = replace(state, control_points=exact_ends(part, problem.lattices, state.control_points))
     refuse_bad(problem, state)
     return summarise(problem, state)
@@ -134,7 +135,7 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
                                problem.statistics.noise)
         add_borders(equations, problem, borders)
     body = state.body
-    if stage.all_points:
+    if stage.body:
         body = body_rows(problem, state.control_points, jet, values, borders, body)
         add_body(equations, problem, state.control_points, body, state.trust)
     near = state.factor if stage.bending > _SOFTER * state.stiff else None

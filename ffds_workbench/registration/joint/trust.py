@@ -37,8 +37,10 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
     """The state with its trust in the priors renewed; until the soft stages all are trusted.
 
     A prior that is much trusted forces the shape to comply and then costs little. So the first soft stage allows some
-    of them less than is expected, and trust is won back from there.
+    of them less than is expected, and trust is won back from there. Where the body counts, it stays.
     """
+    if stage.body:
+        return state
     trust, mode = Trust(), problem.settings.isometry
     if stage.soft:
         cost, number = costs(problem, state), max(1.0, problem.lattices.count / _CONTROLS)
