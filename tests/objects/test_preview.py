@@ -37,7 +37,9 @@ def test_coarse_and_exact_agree_to_the_noise(preview, settings):
         before, _, after, p95, coverage = figures(patches)
         assert before > 0.2 and after < 2 * NOISE and p95 < 4 * NOISE and coverage > 0.1
     top = [next(patch for patch in patches if patch.name == "Face6").points for patches in (exact, coarse)]
-    assert np.abs(top[0] - top[1]).max() < 0.25 and np.abs(top[0] - top[1]).mean() < 2 * NOISE
+    # Heights: how the top slides in itself one side of a plate hardly tells, and the coarse one leaves out what does.
+    off = np.abs(top[0] - top[1])[:, 2]
+    assert off.max() < 0.25 and off.mean() < 2 * NOISE
 
 
 def test_a_stiff_part_stays_off_the_scan_and_comes_back(preview):

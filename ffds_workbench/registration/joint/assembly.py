@@ -25,7 +25,6 @@ class NormalEquations:
     right: Array
 
 
-
 def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: CellValues) -> None:
     """Add the rows of the scan, point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the
     normal)."""
@@ -139,5 +138,3 @@ def evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array
     whole = np.maximum(np.bincount(face, weights=area.sum(axis=1)), 1e-12)
     mean = np.stack([np.bincount(face, weights=change[:, p]) for p in range(3)], axis=1) / whole[:, None]
     return np.where(problem.skin[:, None], mean[face], 0.0)
-
-

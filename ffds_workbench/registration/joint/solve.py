@@ -28,12 +28,14 @@ from .sides import facing, shown
 from .state import State, start
 from .summary import refuse_bad, summarise
 from .system import solve
-from .trust import judge
+from .trust import is_isometric, judge
 from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
 _SETTLED = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
+_AS_WELL = 1.01
+"""Ratio of squared misfits up to which two fits count as equal."""
 _HARDLY_MOVES = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
 _HARDLY_TURNS = 0.2
@@ -72,7 +74,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     for number, stage in enumerate(steps):
         if stage.soft:
             report("joint solve", number / len(steps))
-            state = run_stage(problem, stage, state)
+            state = _soft(problem, stage, state)
     finer = finer_faces(problem, state) if settings.refine else {}
     if finer:
         report("finer lattice", 1.0)
@@ -93,6 +95,15 @@ def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State, compared: b
         if state.last_step > _SETTLED or (compared and stage is stiff[-1]):
             state = run_stage(problem, stage, state)
     return state
+
+
+def _soft(problem: Problem, stage: Stage, state: State) -> State:
+    """A soft stage; where it takes a sheet for one that stretched, whether it fits as well as one that did not."""
+    found = run_stage(problem, stage, state)
+    if stage.allowance == 1.0 or is_isometric(found) or not problem.skin.any():
+        return found
+    kept = run_stage(problem, replace(stage, allowance=1.0), state)
+    return kept if is_isometric(kept) and kept.values.misfit < _AS_WELL * found.values.misfit else found
 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
