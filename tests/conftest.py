@@ -15,7 +15,7 @@ SHARED = ROOT.parent / "shared"
 if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
-from ffds_workbench import _freecad  # noqa: E402
+from ffds_workbench import _freecad
 
 _freecad.activate()
 

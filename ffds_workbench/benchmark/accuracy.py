@@ -135,5 +135,5 @@ def _chart(data: dict[str, Any]) -> Any:
     axes.set_yscale("log")
     axes.set_ylabel("mean true deviation, mm")
     axes.set_xticks(range(len(rows)), [row["case"] for row in rows], rotation=90, fontsize=5)
-    axes.legend()
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     return drawing

@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -78,11 +79,11 @@ def trust_of(report: object, name: str = "registration's report") -> Trust:
         raise InputError(f"The {name} has a face or edge without a sound name, flag and band.") from error
 
 
-def _entry(item: Mapping[str, object]) -> _Entry:
+def _entry(item: Mapping[str, Any]) -> _Entry:
     flag, band = str(item["flag"]), item.get("band")
     if flag not in FLAGS:
         raise ValueError(flag)
-    return _Entry(flag, math.nan if band is None else float(band))  # type: ignore[arg-type]
+    return _Entry(flag, math.nan if band is None else float(band))
 
 
 def observed_share(flags: Array, lengths: Array) -> float:

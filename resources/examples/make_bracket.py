@@ -15,11 +15,11 @@ from ffds_workbench import _freecad
 
 _freecad.activate()
 
-import FreeCAD  # noqa: E402
-import Part  # noqa: E402
+import FreeCAD
+import Part
 
-from ffds_workbench.brep import files  # noqa: E402
-from ffds_workbench.brep.step_text import Decoration  # noqa: E402
+from ffds_workbench.brep import files
+from ffds_workbench.brep.step_text import Decoration
 
 FOLDER = Path(__file__).resolve().parent
 LENGTH, WIDTH, HEIGHT, THICKNESS, RADIUS = 110.0, 70.0, 55.0, 3.0, 4.0

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 pytest.importorskip("FreeCAD")
-import Part  # noqa: E402
+import Part
 
-from ffds_workbench.brep.closing import closing_displacements  # noqa: E402
-from ffds_workbench.brep.rebuild import rebuild  # noqa: E402
-from ffds_workbench.brep.topology import edge_traces  # noqa: E402
-from ffds_workbench.brep.workpiece import read  # noqa: E402
-from ffds_workbench.registration.joint.lattice import build_lattices  # noqa: E402
+from ffds_workbench.brep.closing import closing_displacements
+from ffds_workbench.brep.rebuild import rebuild
+from ffds_workbench.brep.topology import edge_traces
+from ffds_workbench.brep.workpiece import read
+from ffds_workbench.registration.joint.lattice import build_lattices
 
 MISMATCH = 2e-3
 GAP = 1e-4

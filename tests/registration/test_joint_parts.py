@@ -5,20 +5,20 @@ import pytest
 from scipy.sparse import csr_matrix
 
 pytest.importorskip("FreeCAD")
-import Part  # noqa: E402
+import Part
 
-from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
-from ffds_workbench.brep.workpiece import read  # noqa: E402
-from ffds_workbench.registration.joint import JointSettings  # noqa: E402
-from ffds_workbench.registration.joint.boundary import find_borders, find_near_edges  # noqa: E402
-from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout  # noqa: E402
-from ffds_workbench.registration.joint.dissection import dissect  # noqa: E402
-from ffds_workbench.registration.joint.ends import exact_ends  # noqa: E402
-from ffds_workbench.registration.joint.lattice import build_lattices, cubic  # noqa: E402
-from ffds_workbench.registration.joint.problem import make_problem  # noqa: E402
-from ffds_workbench.registration.joint.raster import make_places, normals  # noqa: E402
-from ffds_workbench.registration.joint.statistics import scan_statistics  # noqa: E402
-from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness  # noqa: E402
+from ffds_workbench.brep.joint_part import joint_part
+from ffds_workbench.brep.workpiece import read
+from ffds_workbench.registration.joint import JointSettings
+from ffds_workbench.registration.joint.boundary import find_borders, find_near_edges
+from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout
+from ffds_workbench.registration.joint.dissection import dissect
+from ffds_workbench.registration.joint.ends import exact_ends
+from ffds_workbench.registration.joint.lattice import build_lattices, cubic
+from ffds_workbench.registration.joint.problem import make_problem
+from ffds_workbench.registration.joint.raster import make_places, normals
+from ffds_workbench.registration.joint.statistics import scan_statistics
+from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness
 
 SPAN, TURNING = 8.0, np.deg2rad(25)
 

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 FreeCAD = pytest.importorskip("FreeCAD")
-import Part  # noqa: E402
+import Part
 
-from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
-from ffds_workbench.brep.workpiece import read  # noqa: E402
-from ffds_workbench.errors import RefusedError  # noqa: E402
-from ffds_workbench.registration.joint import JointSettings, register_joint  # noqa: E402
-from ffds_workbench.registration.joint.problem import make_problem  # noqa: E402
-from ffds_workbench.registration.joint.state import start  # noqa: E402
-from ffds_workbench.registration.joint.summary import refuse_bad  # noqa: E402
+from ffds_workbench.brep.joint_part import joint_part
+from ffds_workbench.brep.workpiece import read
+from ffds_workbench.errors import RefusedError
+from ffds_workbench.registration.joint import JointSettings, register_joint
+from ffds_workbench.registration.joint.problem import make_problem
+from ffds_workbench.registration.joint.state import start
+from ffds_workbench.registration.joint.summary import refuse_bad
 
 SIZE, THICKNESS = (40.0, 30.0), 3.0
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 FreeCAD = pytest.importorskip("FreeCAD")
-import Part  # noqa: E402
+import Part
 
-from ffds_workbench.brep.joint_part import joint_part  # noqa: E402
-from ffds_workbench.brep.workpiece import read  # noqa: E402
-from ffds_workbench.errors import RefusedError  # noqa: E402
-from ffds_workbench.registration.joint import register_joint  # noqa: E402
+from ffds_workbench.brep.joint_part import joint_part
+from ffds_workbench.brep.workpiece import read
+from ffds_workbench.errors import RefusedError
+from ffds_workbench.registration.joint import register_joint
 
 NOISE, DENSITY = 0.1, 12.0
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
+from ..rigid.motions import apply, best_fit
 from ..splines import Array
 from .assembly import NormalEquations, add_products, gather
 from .boundary import Borders
@@ -43,7 +43,7 @@ at neighbouring spans are nearly the same."""
 
 @dataclass(frozen=True)
 class BodyRows:
-    """Where the body has the middles of spans: Σ B d = place within the precision.
+    """Where the body has the middles of spans: Σ B d = displacement, as precisely as it says.
 
     Attributes
     ----------
@@ -65,34 +65,18 @@ class BodyRows:
     sheet: NDArray[np.bool_]
 
 
-@dataclass(frozen=True)
-class _Motion:
-    """A rigid motion, as a displacement."""
-
-    turn: Rotation
-    before: Array
-    after: Array
-
-    @classmethod
-    def of(cls, nominal: Array, moved: Array) -> _Motion:
-        """The one that brings places (n, 3) nearest to where they are now."""
-        before, after = nominal.mean(axis=0), moved.mean(axis=0)
-        return cls(Rotation.align_vectors(moved - after, nominal - before)[0], before, after)
-
-    def __call__(self, place: Array) -> Array:
-        return self.turn.apply(place - self.before) + self.after - place
-
-
 def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellValues, borders: Borders,
               earlier: BodyRows | None) -> BodyRows:
-    """Rows at the current shape ``jet`` of the cells; those of an earlier step are the same after a few."""
+    """Rows at the current shape ``jet`` of the cells, with control points (controls, 3) in mm and the scan's ``values``
+    and ``borders`` there. Of an ``earlier`` step the model and the precision are kept, and after a few all of it."""
     if earlier is not None and earlier.steps == _STEPS:
         return earlier
     seen = _observe(problem, control_points, jet, values, borders)
     cells, shape = problem.cells, problem.cells.inside.shape
     shown = values.weight.reshape(shape) > 0
-    motion = _Motion.of(cells.nominal.position[shown], jet.position[shown])
-    seen = replace(seen, value=seen.value - np.einsum("nx,nx->n", seen.direction, motion(seen.place)))
+    motion = best_fit(cells.nominal.position[shown], jet.position[shown])
+    rigid = apply(motion, seen.place) - seen.place
+    seen = replace(seen, value=seen.value - np.einsum("nx,nx->n", seen.direction, rigid))
     model = earlier.model if earlier else likeliest(seen)
     some = np.arange(0, len(seen.value), 1 + len(seen.value) // _POSED)
     pose = Pose.of(seen.place[some], seen.body[some])
@@ -101,8 +85,8 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellVal
     spans = np.flatnonzero(cells.inside.any(axis=1))
     middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
     place = cells.nominal.position[spans, middle]
-    body = _bodies(problem)[problem.lattices.face_of_span[spans]]
-    displacement = field.mean(place, body) + motion(place)
+    body = problem.part.solid_of_face[problem.lattices.face_of_span[spans]]
+    displacement = field.mean(place, body) + apply(motion, place) - place
     if earlier is not None:
         return replace(earlier, steps=earlier.steps + 1, displacement=displacement)
     covariance = field.covariance(place, body) + model.variance * model.noise * np.eye(3)
@@ -142,19 +126,12 @@ def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellValu
     nominal = cells.nominal.position[span, cell]
     normal = normals(jet, cells.outward)[0][span, cell]
     along = np.einsum("nx,nx->n", normal, jet.position[span, cell] - nominal) + height[span, part]
-    body = _bodies(problem)
+    body = problem.part.solid_of_face
     some = np.arange(0, len(borders.offset), _BORDERS)
     edge, out = borders.samples.take(some), borders.direction[some]
     across = np.einsum("nx,nx->n", out, edge.displacement(control_points)) + borders.offset[some]
     return Observations(np.concatenate([nominal, edge.nominal[0]]), np.concatenate([normal, out]),
                         np.concatenate([body[problem.lattices.face_of_span[span]], body[edge.face]]),
-                        np.concatenate([along, across]), np.concatenate([usual / total[span, part], 0 * across]),
-                        np.concatenate([0 * along, 1 / borders.weight[some]]))
-
-
-def _bodies(problem: Problem) -> Index:
-    """Number of the solid that a face belongs to: (faces,)."""
-    owner = np.zeros(len(problem.part.faces), dtype=np.intp)
-    for number, solid in enumerate(problem.part.solids):
-        owner[solid] = number
-    return owner
+                        np.concatenate([along, across]),
+                        np.concatenate([usual / total[span, part], np.zeros(len(across))]),
+                        np.concatenate([np.zeros(len(along)), 1 / borders.weight[some]]))

@@ -21,9 +21,7 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: Places) -> csr_matr
 
     Contacts are places along the edges of one solid that lie within 0.05 mm of a face of another one.
     """
-    owner = np.full(len(part.faces), -1)
-    for number, solid in enumerate(part.solids):
-        owner[solid] = number
+    owner = part.solid_of_face
     edges = [edge for edge in part.edges if edge.faces and not edge.degenerate]
     rows = [csr_matrix((0, lattices.count))]
     if len(part.solids) < 2 or not edges:

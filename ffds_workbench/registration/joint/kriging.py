@@ -131,7 +131,7 @@ def _with_pose(model: Model, pose: Pose, place: Array, body: Index) -> Array:
 
 
 def likeliest(seen: Observations) -> Model:
-    """The likeliest model, its variance in closed form."""
+    """The likeliest model of observations whose noise is to be found; its variance has a closed form."""
     few = seen.take(np.flatnonzero(seen.noise > 0)[:_FEW])
     extent = float(np.linalg.norm(np.ptp(few.place, axis=0)))
     kinds = product((True, False), (False, True) if np.ptp(few.body) else (False,), _LENGTHS)

@@ -52,3 +52,11 @@ class JointPart:
     edges: tuple[SharedEdge, ...]
     solids: tuple[NDArray[np.intp], ...]
     frozen: frozenset[int] = frozenset()
+
+    @property
+    def solid_of_face(self) -> NDArray[np.intp]:
+        """Number of the solid that a face belongs to: (faces,)."""
+        owner = np.zeros(len(self.faces), dtype=np.intp)
+        for number, solid in enumerate(self.solids):
+            owner[solid] = number
+        return owner

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import RefusedError
+from ..rigid.motions import apply, best_fit
 from ..splines import Array
 from .bands import TWO_SIDED, edge_bands, normal_bands
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
@@ -72,18 +73,13 @@ def _turned(problem: Problem, position: Array, normal: Array) -> Array:
 
 
 def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
-    """Best rigid motion of a solid onto its as-built cells, weighted by area (Kabsch, Acta Cryst. A32, 1976)."""
+    """Best rigid motion of a solid onto its as-built cells, weighted by area."""
     spans = np.flatnonzero(np.isin(problem.lattices.face_of_span, solid))
     weight = problem.area[spans].ravel()
     a, b = (x[spans].reshape(-1, 3) for x in (problem.cells.nominal.position, position))
-    weight = weight / weight.sum()
-    centre_a, centre_b = weight @ a, weight @ b
-    u, _, v = np.linalg.svd((weight[:, None] * (b - centre_b)).T @ (a - centre_a))
-    rotation = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
-    motion = np.eye(4)
-    motion[:3, :3], motion[:3, 3] = rotation, centre_b - rotation @ centre_a
-    left = b - centre_b - (a - centre_a) @ rotation.T
-    return SolidMotion(motion, float(np.sqrt(weight @ (left**2).sum(axis=1))))
+    motion = best_fit(a, b, weight)
+    left = ((b - apply(motion, a)) ** 2).sum(axis=1)
+    return SolidMotion(motion, float(np.sqrt(np.average(left, weights=weight))))
 
 
 def summarise(problem: Problem, state: State) -> JointRegistration:

@@ -25,6 +25,13 @@ def apply(pose: Array, points: Array) -> Array:
     return points @ np.swapaxes(pose[..., :3, :3], -1, -2) + pose[..., None, :3, 3]
 
 
+def best_fit(points: Array, goals: Array, weights: Array | None = None) -> Array:
+    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares, weighted by (n,)."""
+    middle, goal = np.average(points, axis=0, weights=weights), np.average(goals, axis=0, weights=weights)
+    rotation = Rotation.align_vectors(goals - goal, points - middle, weights=weights)[0].as_matrix()
+    return motion(rotation, goal - rotation @ middle)
+
+
 def step(twists: Array, centre: Array) -> Array:
     """Motions that turn by the rotation vectors twists[..., :3] about ``centre`` and shift by twists[..., 3:].
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ...errors import InputError
 from ..splines import Array
+from .motions import best_fit
 
 _NARROW = 0.05
 """Points this near to a line, as a share of their spread along it, leave the turn about it open."""
@@ -36,8 +36,4 @@ def pose_of_pairs(on_scan: Array, on_model: Array) -> Array:
     if np.abs(sides_scan - sides_model).max() > _UNLIKE * sides_model.max():
         raise InputError("The points on the scan and on the part span different triangles: pick the same places in the "
                          "same order, and check the unit of the scan.")
-    centre_scan, centre_model = scan.mean(axis=0), model.mean(axis=0)
-    pose = np.eye(4)
-    pose[:3, :3] = Rotation.align_vectors(model - centre_model, scan - centre_scan)[0].as_matrix()
-    pose[:3, 3] = centre_model - pose[:3, :3] @ centre_scan
-    return pose
+    return best_fit(scan, model)

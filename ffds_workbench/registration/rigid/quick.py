@@ -96,10 +96,10 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
 def _deformed(target: Target, sketch: Sketch, table: Plane | None, whole: Sketch, sides: Sequence[_Side], scale: float,
               ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
-    misfits = [examine(target.light, sketch, side.pose, side.normals, table) for side in sides]
-    order = np.argsort([evidence.misfit for evidence in misfits])
-    side, evidence = sides[order[0]], misfits[order[0]]
-    if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * misfits[order[1]].misfit:
+    looks = [examine(target.light, sketch, side.pose, side.normals, table) for side in sides]
+    order = np.argsort([look.misfit for look in looks])
+    side, evidence = sides[order[0]], looks[order[0]]
+    if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * looks[order[1]].misfit:
         return None
     pose = polish_deformed(target, whole, side.pose, outward(whole, side.signs) @ side.pose[:3, :3].T,
                            evidence.coverage)

@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from scipy.spatial.transform import Rotation
 
 from ..splines import Array
 from .ends import find_ends, width_of_ends
 from .field import SOFT, STIFF, Field, Freedom, fit_field
 from .fine import gauss_newton, tukey
-from .motions import angle, apply, motion, shift, step
+from .motions import angle, apply, best_fit, shift, step
 from .target import Target
 
 ROUNDS = 6
@@ -168,10 +167,3 @@ def _slid(target: Target, points: Array, nearest: NDArray[np.intp], outline: Out
     moved = apply(slide, points)
     height, normal = target.heights(moved, nearest)
     return moved - height[:, None] * normal
-
-
-def best_fit(points: Array, goals: Array, weights: Array | None = None) -> Array:
-    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares, weighted by (n,)."""
-    middle, goal = np.average(points, axis=0, weights=weights), np.average(goals, axis=0, weights=weights)
-    rotation = Rotation.align_vectors(goals - goal, points - middle, weights=weights)[0].as_matrix()
-    return motion(rotation, goal - rotation @ middle)
