@@ -19,7 +19,8 @@ from ..errors import InputError
 from ..registration.joint import JointFace, JointRegistration, SensorProfile
 from ..registration.result import FaceRegistration
 from ..report import record, table
-from ..report.certificate import BooleanChecks, Certificate, certify
+from ..report.boolean_check import BooleanChecks
+from ..report.certificate import Certificate, certify
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
@@ -34,8 +35,8 @@ METHODS = ("robust", "ffds", "ffd-hsu")
 ISOMETRY = ("auto", "on", "off")
 
 BOOLEAN_CHECK_SECONDS = 10.0
-"""How long the check of a shape for Boolean operations, which runs beside the other work, may take before the
-certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
+"""Processor time that the check of a shape for Boolean operations, which runs beside the other work, may take before
+the certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
 SURFACE_TOLERANCE = 1e-5
 """Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
 

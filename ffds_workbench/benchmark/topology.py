@@ -24,7 +24,8 @@ from ..brep.field import local_displacements
 from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
-from ..report.certificate import Certificate, Condition, boolean_checks, condition
+from ..report.boolean_check import boolean_checks, total
+from ..report.certificate import Certificate, Condition, condition
 from . import page, topology_shapes
 from .page import Section, Table
 
@@ -49,8 +50,8 @@ class Row:
     gap, excess_gap : the nominal's own largest edge gap in mm, and what the result's is beyond it
     tolerance : largest tolerance in mm, before and after
     tolerance_line : what the largest tolerance may be, in mm
-    boolean_check : errors of the check for Boolean operations, before and after; None where it did not finish
-    solids_check : the same, each solid by itself; only where the check of the whole has become worse
+    boolean_check : errors of the check for Boolean operations, of all bodies by themselves, before and after; None
+        where it did not finish
     step : whether the STEP file reads back with the same counts and valid
     step_check : errors of the check for Boolean operations on what it reads back as
     deviation : largest distance from the nominal in mm (identity only)
@@ -70,7 +71,6 @@ class Row:
     tolerance: tuple[float, float]
     tolerance_line: float
     boolean_check: tuple[int | None, int | None]
-    solids_check: tuple[int | None, int | None] | None
     step: bool
     step_check: int | None
     deviation: float | None
@@ -141,14 +141,9 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
     back = _read_back(result)
     errors = boolean_checks((result,) if back is None else (result, back), BOOLEAN_LIMIT)
     certificate = Certificate(nominal, condition(result, errors[0]))
-    checks = nominal.boolean_check, certificate.after.boolean_check
-    worse = checks[0] is not None and checks[1] is not None and checks[1] > checks[0]
-    alone = (_alone(part.shape), _alone(result)) if worse and len(part.shape.Solids) > 1 else None
     deviation = _deviation(part, result) if mode == "identity" else None
     volume = abs(result.Volume - part.shape.Volume) / max(abs(part.shape.Volume), 1e-12)
     problems = certificate.problems()
-    if alone is not None and None not in alone and alone[1] <= alone[0]:
-        problems[-1] += " Each solid by itself is as sound as before: the solids touch, and now run into each other."
     if back is None:
         problems.append("The STEP file does not read back." if _read_back(part.shape) is not None else
                         "The STEP file does not read back, nor does the nominal's.")
@@ -158,15 +153,10 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
         problems.append(f"The identity changes the volume by {volume:.1g}.")
     return Row(name, mode, len(moved), len(part.faces), not certificate.broken(), nominal.max_edge_gap,
                certificate.excess_gap, (nominal.max_tolerance, certificate.after.max_tolerance),
-               certificate.tolerance_line, checks, alone, back is not None,
-               None if back is None else errors[1], deviation, volume,
+               certificate.tolerance_line,
+               (nominal.boolean_errors, certificate.after.boolean_errors), back is not None,
+               None if back is None else total(errors[1]), deviation, volume,
                sum(_poles(result.Faces[face]) for face in moved), seconds, tuple(problems))
-
-
-def _alone(shape: Part.Shape) -> int | None:
-    """Errors of the check for Boolean operations, the solids each by itself, added up."""
-    counts = boolean_checks(tuple(shape.Solids), BOOLEAN_LIMIT)
-    return None if None in counts else sum(counts)
 
 
 def _poles(face: Part.Face) -> int:

@@ -103,6 +103,13 @@ class Topology:
         return faces | {other for vertex in vertices for other in self.vertex_faces[vertex]}
 
 
+def bodies(shape: Part.Shape) -> list[Part.Shape]:
+    """The solids of a shape, and what else lies in it by itself, where they stand."""
+    if shape.ShapeType in ("Compound", "CompSolid"):
+        return [body for child in shape.childShapes() for body in bodies(child)]
+    return [shape]
+
+
 def read(shape: Part.Shape) -> Topology:
     """Adjacency of a shape."""
     faces, edges, vertices = shape.Faces, shape.Edges, shape.Vertexes

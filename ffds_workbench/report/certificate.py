@@ -6,16 +6,8 @@ on the spline code that made the result.
 """
 from __future__ import annotations
 
-import json
-import math
-import subprocess
-import sys
-import tempfile
-import time
-import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import FreeCAD
 import numpy as np
@@ -25,6 +17,7 @@ from ..brep import topology
 from ..brep.topology import Topology
 from ..errors import RefusedError
 from ..registration.splines import Array
+from .boolean_check import BodyErrors, boolean_checks, total
 
 GAP_LIMIT = 1e-4
 """Largest edge gap beyond the nominal's own in mm."""
@@ -33,27 +26,6 @@ TOLERANCE_LIMIT = 1e-3
 _UNIFORM_SAMPLES = 65
 _SAMPLES_PER_SPAN = 2
 _AROUND_LARGEST = 17
-
-_CHECKER = """
-import json, os, sys
-try:
-    import resource
-    os.nice(5)
-    resource.setrlimit(resource.RLIMIT_CPU, (int(sys.argv[3]), int(sys.argv[3])))
-except ImportError:
-    pass
-sys.path[:] = json.loads(sys.argv[2])
-import FreeCAD, Part
-shape = Part.Shape()
-shape.importBrep(sys.argv[1])
-try:
-    shape.check(True)
-    lines = []
-except ValueError as errors:
-    lines = str(errors).splitlines()
-print("errors:", max(len([line for line in lines if line.startswith("Error in")]), int(bool(lines))))
-"""
-
 
 @dataclass(frozen=True)
 class Condition:
@@ -67,7 +39,8 @@ class Condition:
     max_edge_gap : largest distance in mm between an edge's curve and one of its faces at the same parameter, and
         between an edge's end and its vertex
     max_tolerance : largest tolerance of a face, edge or vertex in mm
-    boolean_check : errors that the check for Boolean operations reports; None where it did not run or did not finish
+    boolean_check : errors that the check for Boolean operations reports for each body by itself; None where it did not
+        run or did not finish. Where bodies touch or run into each other is no flaw of either
     """
 
     topology: Topology
@@ -75,11 +48,16 @@ class Condition:
     closed_shells: tuple[bool, ...]
     max_edge_gap: float
     max_tolerance: float
-    boolean_check: int | None
+    boolean_check: BodyErrors = (None,)
 
     @property
     def closed(self) -> bool:
         return bool(self.closed_shells) and all(self.closed_shells)
+
+    @property
+    def boolean_errors(self) -> int | None:
+        """Errors that the check for Boolean operations reports for all bodies; None where it did not finish."""
+        return total(self.boolean_check)
 
 
 @dataclass(frozen=True)
@@ -128,10 +106,13 @@ class Certificate:
         if self.after.max_tolerance > self.tolerance_line:
             sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
                              f"{self.after.max_tolerance:.2g} mm.")
-        errors = self.before.boolean_check, self.after.boolean_check
-        if errors[1] and errors[1] > (errors[0] or 0):
-            was = "an unknown number of" if errors[0] is None else errors[0]
-            sentences.append(f"The check for Boolean operations reports {errors[1]} errors, {was} before.")
+        worse = [(was, count) for was, count in zip(self.before.boolean_check, self.after.boolean_check, strict=False)
+                 if count is not None and count > (was or 0)]
+        if worse:
+            known = [was for was, _ in worse if was is not None]
+            was = sum(known) if len(known) == len(worse) else "an unknown number of"
+            count = sum(count for _, count in worse)
+            sentences.append(f"The check for Boolean operations reports {count} errors, {was} before.")
         return sentences
 
     def enforce(self) -> None:
@@ -153,7 +134,7 @@ class Certificate:
                 "valid": after.valid, "closed": after.closed,
                 "max_edge_gap": {"before": before.max_edge_gap, "after": after.max_edge_gap},
                 "max_tolerance": {"before": before.max_tolerance, "after": after.max_tolerance},
-                "boolean_check": {"before": before.boolean_check, "after": after.boolean_check}}
+                "boolean_check": {"before": before.boolean_errors, "after": after.boolean_errors}}
 
 
 def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None = 60.0) -> Certificate:
@@ -162,14 +143,16 @@ def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None
     Parameters
     ----------
     nominal, result : before and after
-    boolean_limit : seconds that the check for Boolean operations may take, for both shapes at the same time;
-        None leaves it out
+    boolean_limit : seconds of processor time that the check for Boolean operations may take, for both shapes at the
+        same time; None leaves it out
     """
-    checks = (None, None) if boolean_limit is None else boolean_checks((nominal, result), boolean_limit)
-    return Certificate(condition(nominal, checks[0]), condition(result, checks[1]))
+    if boolean_limit is None:
+        return Certificate(condition(nominal), condition(result))
+    before, after = boolean_checks((nominal, result), boolean_limit)
+    return Certificate(condition(nominal, before), condition(result, after))
 
 
-def condition(shape: Part.Shape, boolean_check: int | None = None) -> Condition:
+def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,)) -> Condition:
     """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`."""
     return Condition(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells),
                      max_edge_gap(shape), max_tolerance(shape), boolean_check)
@@ -222,68 +205,3 @@ def _fractions(face: Part.Face, edge: Part.Edge) -> Array:
     breaks = np.unique(np.clip((np.concatenate([[first, last], *knots]) - first) / (last - first), 0.0, 1.0))
     inner = breaks[:-1, None] + np.diff(breaks)[:, None] * (np.arange(_SAMPLES_PER_SPAN) + 0.5) / _SAMPLES_PER_SPAN
     return np.unique(np.concatenate([np.linspace(0.0, 1.0, _UNIFORM_SAMPLES), breaks, inner.ravel()]))
-
-
-class BooleanChecks:
-    """OCCT's checks for Boolean operations, running beside other work.
-
-    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own, behind what is
-    more urgent. It ends with this object, or by itself when it has used the time, should nobody be left to end it.
-
-    Parameters
-    ----------
-    limit : seconds from its beginning after which a check is given up
-    """
-
-    def __init__(self, limit: float) -> None:
-        self._limit = limit
-        self._folder = tempfile.TemporaryDirectory()
-        self._deadlines: list[float] = []
-        self._processes: list[subprocess.Popen[str]] = []
-        self._end = weakref.finalize(self, _end, self._processes, self._folder)
-
-    def begin(self, shape: Part.Shape) -> None:
-        """Begin the check of a shape."""
-        path = Path(self._folder.name) / f"{len(self._processes)}.brep"
-        shape.exportBrep(str(path))
-        command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(self._limit) + 1)]
-        self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
-        self._deadlines.append(time.monotonic() + self._limit)
-
-    def errors(self) -> tuple[int | None, ...]:
-        """Number of errors found in each shape, waited for; None where the check did not finish in time."""
-        found = tuple(_errors(process, deadline) for process, deadline in
-                      zip(self._processes, self._deadlines, strict=True))
-        self._end()
-        return found
-
-
-def boolean_checks(shapes: Sequence[Part.Shape], limit: float) -> tuple[int | None, ...]:
-    """Errors that OCCT's check for Boolean operations reports for each shape; None where it took over ``limit`` s."""
-    checks = BooleanChecks(limit)
-    for shape in shapes:
-        checks.begin(shape)
-    return checks.errors()
-
-
-def _end(processes: Sequence[subprocess.Popen[str]], folder: tempfile.TemporaryDirectory[str]) -> None:
-    for process in processes:
-        process.kill()
-        process.wait()
-    folder.cleanup()
-
-
-def _interpreter() -> str:
-    """A Python to run a script with: inside FreeCAD ``sys.executable`` may be FreeCAD itself."""
-    if "python" in Path(sys.executable or "").name:
-        return sys.executable
-    return str(Path(sys.exec_prefix) / "bin" / "python3")
-
-
-def _errors(process: subprocess.Popen[str], deadline: float) -> int | None:
-    try:
-        output, _ = process.communicate(timeout=max(0.0, deadline - time.monotonic()))
-    except subprocess.TimeoutExpired:
-        return None
-    count = output.rpartition("errors:")[2].strip()
-    return int(count) if process.returncode == 0 and count else None

@@ -9,7 +9,7 @@ import Part
 import pytest
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.report.certificate import Certificate, boolean_checks, certify, condition, max_edge_gap
+from ffds_workbench.report.certificate import Certificate, certify, condition, max_edge_gap
 
 SHIFT = 0.0125
 
@@ -92,17 +92,11 @@ def test_opened_and_invalid_shapes_are_refused():
     Certificate(replace(sound, closed_shells=(False,)), sound).enforce()
 
 
-def test_boolean_check_counts_and_gives_up():
-    """Two boxes that overlap intersect themselves; a check that may take no time does not finish."""
-    overlapping = Part.makeCompound([Part.makeBox(10, 10, 10), Part.makeBox(10, 10, 10, FreeCAD.Vector(5, 5, 5))])
-    clean, bad = boolean_checks((Part.makeBox(1, 1, 1), overlapping), 30)
-    assert clean == 0
-    assert bad > 0
-    assert boolean_checks((overlapping,), 0.0) == (None,)
-
-
 def test_more_boolean_errors_are_a_problem():
-    sound = condition(Part.makeBox(10, 20, 30), 0)
-    assert Certificate(sound, replace(sound, boolean_check=2)).problems()
-    assert not Certificate(replace(sound, boolean_check=2), sound).problems()
-    assert not Certificate(sound, replace(sound, boolean_check=None)).problems()
+    sound = condition(Part.makeBox(10, 20, 30), (0, 4))
+    for after, sentence in (((2, 0), "reports 2 errors, 0 before"), ((3, 6), "reports 9 errors, 4 before"),
+                            ((None, 5), "reports 5 errors, 4 before")):
+        worse = Certificate(sound, replace(sound, boolean_check=after)).problems()
+        assert len(worse) == 1 and sentence in worse[0]
+    for after in ((0, 4), (0, 0), (0, None), (None,)):
+        assert not Certificate(sound, replace(sound, boolean_check=after)).problems()

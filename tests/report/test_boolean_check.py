@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The check for Boolean operations against bodies that were made to touch or to cross each other or themselves."""
+from __future__ import annotations
+
+import time
+
+import Part
+import pytest
+from FreeCAD import Vector
+
+from ffds_workbench.report.boolean_check import BooleanChecks, boolean_checks, total
+
+LIMIT = 30
+
+
+def box(x: float, y: float = 0.0, z: float = 0.0) -> Part.Shape:
+    return Part.makeBox(10, 10, 10, Vector(x, y, z))
+
+
+def crossing() -> Part.Shape:
+    """A prism over the bow tie (0, 0), (10, 10), (10, 0), (0, 10): two of its side walls cross."""
+    corners = [Vector(*corner, 0) for corner in ((0, 0), (10, 10), (10, 0), (0, 10), (0, 0))]
+    walls = Part.makePolygon(corners).extrude(Vector(0, 0, 5))
+    return Part.Shell(walls.Faces)
+
+
+@pytest.mark.parametrize("second", [box(10), box(10, 3, 3), box(5, 5, 5), Part.makeSphere(4, Vector(10, 5, 5))],
+                         ids=["face on face", "face on part of a face", "overlapping", "sphere in a wall"])
+def test_bodies_that_touch_are_sound(second):
+    assert boolean_checks((Part.makeCompound([box(0), second]),), LIMIT) == ((0, 0),)
+
+
+def test_a_body_that_crosses_itself_is_found_wherever_it_lies():
+    inner = Part.makeCompound([crossing(), box(0, 0, 30)])
+    (alone,), nested = boolean_checks((crossing(), Part.makeCompound([box(20), inner])), LIMIT)
+    assert alone > 0
+    assert nested == (0, alone, 0)
+    assert total(nested) == alone
+
+
+def test_a_check_without_time_does_not_finish():
+    found, = boolean_checks((Part.makeCompound([box(0), box(20)]),), 0.0)
+    assert found == (None, None)
+    assert total(found) is None
+
+
+def test_a_check_that_ended_in_time_counts_however_late_it_is_asked_for():
+    checks = BooleanChecks(0.5)
+    checks.begin(box(0))
+    time.sleep(2.5)
+    assert checks.errors() == ((0,),)
