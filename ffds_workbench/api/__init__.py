@@ -17,31 +17,45 @@ Models are files, shapes or document objects alike; objects are taken where they
 """
 from __future__ import annotations
 
+from importlib import import_module
+from typing import Any
+
 from .. import _freecad
 
 _freecad.activate()
 
-from ..brep.files import Model
-from ..brep.simulation import Simulation
-from ..errors import FfdsError, InputError, RefusedError
-from ..registration.joint import SensorProfile
-from ..scan.cloud import PointCloud
-from ..scan.sensor import SensorSettings, View
-from ..seams.carry import carry
-from ..seams.measured import SeamLimits
-from ..seams.plan import check_seam_outputs, plan_seams, write_seams
-from ..seams.programs.moves import RobotSettings, read_frame_choice
-from ..seams.settings import SeamSettings
-from .aligning import AlignedScan, align_scan, write_alignment
-from .deviating import Deviation, deviation
-from .inputs import read_model, read_scan
-from .outputs import check_model_output, check_outputs, write, write_deviation, write_simulation
-from .registering import Result, register
-from .sensors import measure_sensor, write_sensor
-from .simulating import simulate
+_HOMES = {
+    "..brep.files": ("Model",),
+    "..brep.simulation": ("Simulation",),
+    "..errors": ("FfdsError", "InputError", "RefusedError"),
+    "..registration.joint": ("SensorProfile",),
+    "..scan.cloud": ("PointCloud",),
+    "..scan.sensor": ("SensorSettings", "View"),
+    "..seams.carry": ("carry",),
+    "..seams.measured": ("SeamLimits",),
+    "..seams.plan": ("check_seam_outputs", "plan_seams", "write_seams"),
+    "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
+    "..seams.settings": ("SeamSettings",),
+    ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
+    ".deviating": ("Deviation", "deviation"),
+    ".inputs": ("read_model", "read_scan"),
+    ".outputs": ("check_model_output", "check_outputs", "write", "write_deviation"),
+    ".registering": ("Result", "register"),
+    ".sensors": ("measure_sensor", "write_sensor"),
+    ".simulating": ("simulate", "write_simulation"),
+}
+"""Where each name of the surface lives. What is not asked for is not loaded, so that commands start faster."""
+_HOME = {name: home for home, names in _HOMES.items() for name in names}
+__all__ = sorted(_HOME)
 
-__all__ = ["AlignedScan", "Deviation", "FfdsError", "InputError", "Model", "PointCloud", "RefusedError", "Result",
-           "RobotSettings", "SeamLimits", "SeamSettings", "SensorProfile", "SensorSettings", "Simulation", "View",
-           "align_scan", "carry", "check_model_output", "check_outputs", "check_seam_outputs", "deviation",
-           "measure_sensor", "plan_seams", "read_frame_choice", "read_model", "read_scan", "register", "simulate",
-           "write", "write_alignment", "write_deviation", "write_seams", "write_sensor", "write_simulation"]
+
+def __getattr__(name: str) -> Any:
+    """A name of the surface, loaded when it is first asked for (PEP 562)."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(_HOME[name], __name__), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

@@ -10,14 +10,12 @@ import Part
 
 from ..brep import files
 from ..brep.files import Model
-from ..brep.simulation import Simulation
 from ..errors import InputError
 from ..output import check_writable, replacing
 from ..report import picture as drawing
 from ..report import record
 from ..report.deviation import FaceDeviation
 from ..scan.cloud import PointCloud
-from ..scan.sensor.files import write_ply
 from .deviating import Deviation
 from .registering import Result
 
@@ -59,16 +57,6 @@ def write_deviation(result: Deviation, report: str | Path | None = None, picture
         if picture is not None:
             panel = drawing.Panel("Deviation from the model", _all(result.faces), _edges(result.model.shape))
             _draw(target[1], result.model, result.scan, result.faces, [panel])
-
-
-def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
-                     inputs: Sequence[str | Path] = ()) -> None:
-    """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
-    outputs = destinations((out, truth), inputs)
-    with replacing(*outputs.values()) as temporary:
-        write_ply(temporary[0], simulation.scan.points)
-        if truth is not None:
-            simulation.truth.write(temporary[1])
 
 
 def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:

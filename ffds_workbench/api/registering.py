@@ -20,7 +20,7 @@ from ..registration.joint import JointFace, JointRegistration, SensorProfile
 from ..registration.result import FaceRegistration
 from ..report import record, table
 from ..report.boolean_check import BooleanChecks
-from ..report.certificate import Certificate, certify
+from ..report.certificate import Certificate, Structure, condition, enforce, structure
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
@@ -53,8 +53,8 @@ class Result:
     scan : what it was made to fit
     sensor : the sensor's profile, if one was given
     found : the displacements, and where they come from
-    topology : the certificate before the check for Boolean operations has ended
-    checks : that of the nominal and of the as-built shape
+    structures : what the as-built shape had to keep, of the nominal and of itself
+    checks : for Boolean operations, of the nominal and of the as-built shape
     watch : how long what took
     alignment : the report of the alignment that went before, if one did
     """
@@ -65,7 +65,7 @@ class Result:
     scan: PointCloud
     sensor: SensorProfile | None
     found: Deformation
-    topology: Certificate
+    structures: tuple[Structure, Structure]
     checks: BooleanChecks
     watch: Stopwatch
     alignment: Mapping[str, Any] | None = None
@@ -89,9 +89,10 @@ class Result:
     @cached_property
     def certificate(self) -> Certificate:
         """Topology before and after; waits for the check for Boolean operations."""
-        before, after = self.checks.errors()
-        return Certificate(replace(self.topology.before, boolean_check=before),
-                           replace(self.topology.after, boolean_check=after))
+        before, after = (condition(shape, known=known) for shape, known in
+                         zip((self.nominal.shape, self.shape), self.structures, strict=True))
+        errors = self.checks.errors()
+        return Certificate(replace(before, boolean_check=errors[0]), replace(after, boolean_check=errors[1]))
 
     @cached_property
     def figures(self) -> dict[str, Any]:
@@ -99,7 +100,7 @@ class Result:
         found, names = self.found, [face.name for face in self.part.faces]
         moved, (before, after) = [names[index] for index in found.displacements], self.deviations
         if found.joint is None:
-            edge_faces = [[names[index] for index in faces] for faces in self.topology.before.topology.edge_faces]
+            edge_faces = [[names[index] for index in faces] for faces in self.structures[0].topology.edge_faces]
             faces = record.face_records(names, moved, found.faces.values(), before, after)
             edges = record.edge_records(edge_faces, moved, [item.name for item in found.faces.values()])
         else:
@@ -169,19 +170,19 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
         wanted = None if faces is None else [part.index(name) for name in dict.fromkeys(faces)]
         _check_request(method, lattice, wanted, frozen, isometry, tuning, profile)
         check_overlap(cloud, *box(nominal.shape))
-        checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
-        checks.begin(nominal.shape)
     if method == "robust" and wanted is None:
         found = all_together(part, cloud, freeze, isometry, watch, tuning, profile or SensorProfile())
     else:
         found = each_by_itself(part, cloud, wanted, frozen, method, lattice, source_points, watch, tuning)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
+    checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
+    checks.begin(nominal.shape)
     checks.begin(shape)
     with watch.stage("certify", "Checking the topology"):
-        certificate = certify(nominal.shape, shape, None)
-        certificate.enforce()
-    return Result(replace(nominal, shape=shape), nominal, part, cloud, profile, found, certificate, checks, watch)
+        structures = structure(nominal.shape), structure(shape)
+        enforce(*structures)
+    return Result(replace(nominal, shape=shape), nominal, part, cloud, profile, found, structures, checks, watch)
 
 
 def _check_request(method: str, lattice: Lattice, wanted: Collection[int] | None, frozen: Collection[int],

@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The job ``simulate``: a scan of a model by the virtual sensor."""
+"""The job ``simulate``: a scan of a model by the virtual sensor, and its files."""
 from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
 
 import Part
 
 from ..brep.files import Model
 from ..brep.simulation import Simulation, simulate_shape
+from ..output import replacing
 from ..scan.sensor import SensorSettings
+from ..scan.sensor.files import write_ply
 from .inputs import as_model
+from .outputs import destinations
 
 
 def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None = None) -> Simulation:
@@ -20,3 +26,13 @@ def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None
     InputError, RefusedError : the model cannot be used, or the views see nothing of it
     """
     return simulate_shape(as_model(model).shape, settings or SensorSettings())
+
+
+def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
+                     inputs: Sequence[str | Path] = ()) -> None:
+    """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
+    outputs = destinations((out, truth), inputs)
+    with replacing(*outputs.values()) as temporary:
+        write_ply(temporary[0], simulation.scan.points)
+        if truth is not None:
+            simulation.truth.write(temporary[1])

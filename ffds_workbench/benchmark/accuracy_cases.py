@@ -23,6 +23,7 @@ from ..errors import FfdsError
 from ..registration.joint import SensorProfile
 from ..registration.projection import project
 from ..registration.splines import Array
+from ..report.certificate import broken
 from .families import SCANS, make_case
 from .sheet import to_polyline
 
@@ -119,7 +120,7 @@ def _own_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]
     gap = result.certificate
     judged = {"judge": "truth", "visible": figures(off[seen]), "hidden": figures(off[~seen]),
               "edges": figures(edges[0]), "thickness": None, "gap": gap.excess_gap,
-              "tolerance": gap.after.max_tolerance, "topology": not gap.broken()}
+              "tolerance": gap.after.max_tolerance, "topology": not broken(gap.before, gap.after)}
     return {"judged": judged, "bands": bands}
 
 

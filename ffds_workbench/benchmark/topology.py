@@ -25,7 +25,7 @@ from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
 from ..report.boolean_check import boolean_checks, total
-from ..report.certificate import Certificate, Condition, condition
+from ..report.certificate import Certificate, Condition, broken, condition
 from . import page, topology_shapes
 from .page import Section, Table
 
@@ -151,7 +151,7 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
         problems.append(f"The identity is {deviation:.2g} mm off.")
     if mode == "identity" and nominal.max_tolerance <= _EXACT_TOLERANCE and volume > _VOLUME_LIMIT:
         problems.append(f"The identity changes the volume by {volume:.1g}.")
-    return Row(name, mode, len(moved), len(part.faces), not certificate.broken(), nominal.max_edge_gap,
+    return Row(name, mode, len(moved), len(part.faces), not broken(nominal, certificate.after), nominal.max_edge_gap,
                certificate.excess_gap, (nominal.max_tolerance, certificate.after.max_tolerance),
                certificate.tolerance_line,
                (nominal.boolean_errors, certificate.after.boolean_errors), back is not None,

@@ -66,7 +66,7 @@ class Job:
             result = api.register(
                 self.source.model, self.points, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
                 wanted.source_points, wanted.isometry, progress, wanted.stiffness, wanted.gate)
-            _ = result.deviations  # measured here, and not where the main thread asks for them
+            _ = result.report  # measured and waited for here, and not where the main thread asks for it
             _results[self.digest] = result
             while len(_results) > _KEPT:
                 _results.popitem(last=False)

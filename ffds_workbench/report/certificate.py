@@ -28,14 +28,31 @@ _SAMPLES_PER_SPAN = 2
 _AROUND_LARGEST = 17
 
 @dataclass(frozen=True)
-class Condition:
-    """How sound one shape is.
+class Structure:
+    """What of a shape its deformation must keep.
 
     Attributes
     ----------
     topology : adjacency by index
     valid : OCCT's verdict
     closed_shells : for each shell, whether it is closed
+    """
+
+    topology: Topology
+    valid: bool
+    closed_shells: tuple[bool, ...]
+
+    @property
+    def closed(self) -> bool:
+        return bool(self.closed_shells) and all(self.closed_shells)
+
+
+@dataclass(frozen=True)
+class Condition(Structure):
+    """How sound one shape is.
+
+    Attributes
+    ----------
     max_edge_gap : largest distance in mm between an edge's curve and one of its faces at the same parameter, and
         between an edge's end and its vertex
     max_tolerance : largest tolerance of a face, edge or vertex in mm
@@ -43,16 +60,9 @@ class Condition:
         run or did not finish. Where bodies touch or run into each other is no flaw of either
     """
 
-    topology: Topology
-    valid: bool
-    closed_shells: tuple[bool, ...]
     max_edge_gap: float
     max_tolerance: float
     boolean_check: BodyErrors = (None,)
-
-    @property
-    def closed(self) -> bool:
-        return bool(self.closed_shells) and all(self.closed_shells)
 
     @property
     def boolean_errors(self) -> int | None:
@@ -68,11 +78,6 @@ class Certificate:
     after: Condition
 
     @property
-    def order_kept(self) -> bool:
-        """Every face, edge and vertex touches the same others as before, by index."""
-        return self.before.topology == self.after.topology
-
-    @property
     def excess_gap(self) -> float:
         """Largest edge gap beyond the nominal's own in mm."""
         return max(0.0, self.after.max_edge_gap - self.before.max_edge_gap)
@@ -82,24 +87,9 @@ class Certificate:
         """What the largest tolerance may be, in mm."""
         return max(self.before.max_tolerance, self.before.max_edge_gap + GAP_LIMIT, TOLERANCE_LIMIT)
 
-    def broken(self) -> list[str]:
-        """One sentence for everything that forbids to hand the shape out; empty if nothing does."""
-        before, after = self.before.topology.counts, self.after.topology.counts
-        sentences = [f"The number of {kind} changed from {before[kind]} to {after[kind]}."
-                     for kind in before if before[kind] != after[kind]]
-        if not sentences and not self.order_kept:
-            sentences.append("The order of the faces, edges or vertices changed.")
-        if not self.after.valid:
-            sentences.append("The shape is not valid.")
-        if not sentences:
-            opened = [i + 1 for i, (was, is_now) in enumerate(zip(self.before.closed_shells, self.after.closed_shells,
-                                                                  strict=True)) if was and not is_now]
-            sentences += [f"Shell {number} is no longer closed." for number in opened]
-        return sentences
-
     def problems(self) -> list[str]:
         """One sentence for everything that is worse than before; empty for a clean result."""
-        sentences = self.broken()
+        sentences = broken(self.before, self.after)
         if self.excess_gap > GAP_LIMIT:
             sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
                              f"{self.after.max_edge_gap:.2g} mm.")
@@ -115,26 +105,44 @@ class Certificate:
             sentences.append(f"The check for Boolean operations reports {count} errors, {was} before.")
         return sentences
 
-    def enforce(self) -> None:
-        """Refuse a shape that lost its topology.
-
-        Raises
-        ------
-        RefusedError
-            The result is not valid, lost a sub-shape, changed its order or opened.
-        """
-        broken = self.broken()
-        if broken:
-            raise RefusedError("The deformed model lost its topology and was not written: " + " ".join(broken))
-
     def as_dict(self) -> dict[str, object]:
         """The report's ``topology`` block; lengths in mm."""
         before, after = self.before, self.after
-        return {"before": before.topology.counts, "after": after.topology.counts, "order_kept": self.order_kept,
+        return {"before": before.topology.counts, "after": after.topology.counts,
+                "order_kept": before.topology == after.topology,
                 "valid": after.valid, "closed": after.closed,
                 "max_edge_gap": {"before": before.max_edge_gap, "after": after.max_edge_gap},
                 "max_tolerance": {"before": before.max_tolerance, "after": after.max_tolerance},
                 "boolean_check": {"before": before.boolean_errors, "after": after.boolean_errors}}
+
+
+def broken(before: Structure, after: Structure) -> list[str]:
+    """One sentence for everything that forbids to hand a deformed shape out; empty if nothing does."""
+    counts = before.topology.counts, after.topology.counts
+    sentences = [f"The number of {kind} changed from {counts[0][kind]} to {counts[1][kind]}."
+                 for kind in counts[0] if counts[0][kind] != counts[1][kind]]
+    if not sentences and before.topology != after.topology:
+        sentences.append("The order of the faces, edges or vertices changed.")
+    if not after.valid:
+        sentences.append("The shape is not valid.")
+    if not sentences:
+        opened = [i + 1 for i, (was, is_now) in enumerate(zip(before.closed_shells, after.closed_shells, strict=True))
+                  if was and not is_now]
+        sentences += [f"Shell {number} is no longer closed." for number in opened]
+    return sentences
+
+
+def enforce(before: Structure, after: Structure) -> None:
+    """Refuse a shape that lost its topology.
+
+    Raises
+    ------
+    RefusedError
+        The result is not valid, lost a sub-shape, changed its order or opened.
+    """
+    lost = broken(before, after)
+    if lost:
+        raise RefusedError("The deformed model lost its topology and was not written: " + " ".join(lost))
 
 
 def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None = 60.0) -> Certificate:
@@ -152,10 +160,16 @@ def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None
     return Certificate(condition(nominal, before), condition(result, after))
 
 
-def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,)) -> Condition:
-    """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`."""
-    return Condition(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells),
-                     max_edge_gap(shape), max_tolerance(shape), boolean_check)
+def structure(shape: Part.Shape) -> Structure:
+    """What of a shape its deformation must keep."""
+    return Structure(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells))
+
+
+def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,), known: Structure | None = None) -> Condition:
+    """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`, ``known`` from `structure`."""
+    own = known or structure(shape)
+    return Condition(own.topology, own.valid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
+                     boolean_check)
 
 
 def max_tolerance(shape: Part.Shape) -> float:

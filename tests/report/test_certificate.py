@@ -9,7 +9,14 @@ import Part
 import pytest
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.report.certificate import Certificate, certify, condition, max_edge_gap
+from ffds_workbench.report.certificate import (
+    Certificate,
+    certify,
+    condition,
+    enforce,
+    max_edge_gap,
+    structure,
+)
 
 SHIFT = 0.0125
 
@@ -28,7 +35,7 @@ def test_a_clean_box_is_clean():
     box = Part.makeBox(10, 20, 30)
     certificate = certify(box, box.copy())
     assert certificate.problems() == []
-    certificate.enforce()
+    enforce(certificate.before, certificate.after)
     counts = {"solids": 1, "shells": 1, "faces": 6, "wires": 6, "edges": 12, "vertices": 8}
     assert certificate.as_dict() == {
         "before": counts, "after": counts, "order_kept": True, "valid": True, "closed": True,
@@ -73,7 +80,7 @@ def test_a_grown_tolerance_is_a_problem():
 def test_lost_faces_are_refused():
     box = Part.makeBox(10, 20, 30)
     with pytest.raises(RefusedError, match="faces changed from 7 to 6"):
-        certify(box.makeFillet(1, box.Edges[:1]), box, None).enforce()
+        enforce(structure(box.makeFillet(1, box.Edges[:1])), structure(box))
 
 
 def test_changed_order_is_refused():
@@ -81,15 +88,15 @@ def test_changed_order_is_refused():
     certificate = certify(Part.makeCompound([box, cylinder]), Part.makeCompound([cylinder, box]), None)
     assert certificate.as_dict()["order_kept"] is False
     with pytest.raises(RefusedError, match="order"):
-        certificate.enforce()
+        enforce(certificate.before, certificate.after)
 
 
 def test_opened_and_invalid_shapes_are_refused():
     sound = condition(Part.makeBox(10, 20, 30))
     for spoiled, word in ((replace(sound, closed_shells=(False,)), "closed"), (replace(sound, valid=False), "valid")):
         with pytest.raises(RefusedError, match=word):
-            Certificate(sound, spoiled).enforce()
-    Certificate(replace(sound, closed_shells=(False,)), sound).enforce()
+            enforce(sound, spoiled)
+    enforce(replace(sound, closed_shells=(False,)), sound)
 
 
 def test_more_boolean_errors_are_a_problem():
