@@ -2,7 +2,7 @@
 """Curves of edges on deformed faces: fitted to what the faces say, and how far they are from each face."""
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,6 +11,7 @@ import numpy as np
 from ..registration.splines import DEGREE, Array, SplineSurface, basis_matrix
 from .curve_fit import crossings, fit_curve
 from .curves import Curve, Line, Spline
+from .kinks import without_false_kinks
 from .pcurves import Pcurve
 
 _GAP_SAMPLES = 257
@@ -18,7 +19,6 @@ _GAP_SAMPLES_PER_SPAN = 4
 _KINK = 0.05
 """Relative change of the derivative at a knot from which on the curve counts as kinked; pcurves that intersection
 algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off."""
-_KINK_STEP = 1e-5
 _SAME_BREAK = 1e-6
 _STILL = 1e-12
 """A parameter that varies by less along a pcurve, relative to the other one, is constant."""
@@ -157,32 +157,11 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
         return sum(trace.at(fraction) for trace in traces) / len(traces)
 
     breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])
-    breaks = _without_false_kinks(mean, breaks, last - first)
+    breaks = without_false_kinks(mean, breaks, last - first, _KINK)
     curve = fit_curve(mean, first, last, breaks, tolerance)
     if closed:
         curve.poles[0] = curve.poles[-1] = 0.5 * (curve.poles[0] + curve.poles[-1])
     return curve
-
-
-def _without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: float) -> Array:
-    """Breaks of multiplicity three reduced to two where ``f`` has no kink to speak of.
-
-    OCCT's Boolean check objects to an edge with a C0 knot.
-    """
-    if not len(breaks):
-        return breaks
-    # The traces' breaks may be one and the same but for rounding.
-    breaks = np.sort(breaks)
-    start = np.flatnonzero(np.diff(breaks, prepend=-np.inf) > _SAME_BREAK * length)
-    distinct, count = breaks[start], np.diff(start, append=len(breaks))
-    step = _KINK_STEP * length
-    at = distinct[:, None] + step * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
-    points = f(at.ravel()).reshape(len(distinct), 5, -1)
-    before = np.einsum("k,nkd->nd", [1.0, -4.0, 3.0], points[:, :3])
-    after = np.einsum("k,nkd->nd", [-3.0, 4.0, -1.0], points[:, 2:])
-    turned = np.linalg.norm(after - before, axis=1) > _KINK * np.maximum(np.linalg.norm(before, axis=1),
-                                                                         np.linalg.norm(after, axis=1))
-    return np.repeat(distinct, np.where(turned, np.minimum(count, 3), np.minimum(count, 2)))
 
 
 def largest_gap(curve: PlacedCurve, traces: Sequence[Trace]) -> float:

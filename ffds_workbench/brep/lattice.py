@@ -7,7 +7,7 @@ Numpy and scipy only; what is read from a FreeCAD surface is in ``parameters``.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
 from ..registration.splines import DEGREE, Array, SplineSurface, basis_rows, greville
+from .kinks import without_false_kinks
 
 GridFunction = Callable[[Array, Array], Array]
 """f(u (m,), v (n,)) -> values on the grid, (m, n, 3)."""
@@ -26,6 +27,8 @@ _LINES = 16, 60
 _SHORTEST_SPAN = 1e-5
 """Spans shorter than this share of their side are not divided: at a kink that no knot marks it would never end, and
 OCCT reads no surface whose knots coincide but for rounding."""
+_KINK = 1e-6
+"""Relative change of the derivative at a knot of multiplicity three from which on it stays one."""
 _DEGENERATE_ROW = 1e-7
 """A row of control points within this box (mm) is a pole of the surface and is made exactly one point."""
 
@@ -127,6 +130,14 @@ def direction(start: float, end: float, seeds: Array, closed: bool) -> Direction
     return Direction(start, end, interior, closed)
 
 
+def _smoothed(side: Direction, f: Callable[[Array], Array]) -> Direction:
+    """The direction without knots of multiplicity three where ``f``, over it, has no kink: nearly equal seeds."""
+    def inside(x: Array) -> Array:
+        return f(np.clip(x, side.start, side.end))
+
+    return replace(side, interior=without_false_kinks(inside, side.interior, side.end - side.start, _KINK))
+
+
 def _some(x: Array, most: int) -> Array:
     return x if len(x) <= most else x[np.linspace(0, len(x) - 1, most).round().astype(int)]
 
@@ -166,6 +177,8 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
     """
     u = direction(box.u0, box.u1, seeds_u, box.closed_u)
     v = direction(box.v0, box.v1, seeds_v, box.closed_v)
+    u = _smoothed(u, lambda x: f(x, _some(v.sites, _LINES[0])))
+    v = _smoothed(v, lambda x: f(_some(u.sites, _LINES[0]), x).swapaxes(0, 1))
     for _ in range(rounds):
         surface = _interpolate(f, u, v)
         for lines in _LINES:

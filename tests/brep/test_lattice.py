@@ -21,6 +21,22 @@ def test_a_kink_that_no_knot_marks_does_not_pile_up_knots():
     assert np.diff(np.unique(surface.knots_v)).min() > 1e-5 / 6.5
 
 
+@pytest.mark.parametrize("kink, multiplicity", [(0.0, 2), (1e-4, 3)])
+def test_seeds_that_nearly_coincide_allow_a_kink_only_where_there_is_one(kink, multiplicity):
+    """A wave, with and without a kink of 1e-4 rad at the seeds, met to 1e-7 either way."""
+    place = 0.166654145374
+
+    def wave(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        height = 0.1 * np.sin(3 * u[:, None]) + kink * np.abs(u[:, None] - place)
+        return np.stack(np.broadcast_arrays(u[:, None], v, height), axis=-1)
+
+    surface = approximate(wave, ParameterBox(0, 1, 0, 1), place + np.array([0, 6.5e-7, 9.3e-7]), np.empty(0), 1e-7)
+    knots, counts = np.unique(surface.knots_u, return_counts=True)
+    assert counts[np.abs(knots - place) < 1e-6].tolist() == [multiplicity]
+    at = np.linspace(0, 1, 4001)
+    assert np.abs(surface.on_grid(at, np.zeros(1)) - wave(at, np.zeros(1))).max() < 1.5e-7
+
+
 def test_a_closed_direction_ends_exactly_at_its_end():
     """Start and period chosen so that start + (end − start) misses the end by rounding."""
     box = ParameterBox(3.03867513291346e-14, 80.5907195137207, 0, 1, closed_u=True)
