@@ -38,13 +38,20 @@ class Deformation:
     Attributes
     ----------
     displacements : of every face that moves, by index; continuous across the edges
-    faces : by index, the registration of each face that the scan deformed
+    alone : by index, the registrations of faces each by itself
     joint : the registration of the whole part, where all faces were registered together
     """
 
     displacements: Mapping[int, FaceDisplacement]
-    faces: Mapping[int, FaceRegistration | JointFace]
+    alone: Mapping[int, FaceRegistration]
     joint: JointRegistration | None = None
+
+    @property
+    def faces(self) -> Mapping[int, FaceRegistration | JointFace]:
+        """By index, the registration of each face that the scan deformed."""
+        if self.joint is None:
+            return self.alone
+        return {index: face for index, face in enumerate(self.joint.faces) if face.points}
 
 
 def all_together(part: Workpiece, cloud: PointCloud, freeze: Collection[str], isometry: str, watch: Stopwatch,
@@ -55,9 +62,10 @@ def all_together(part: Workpiece, cloud: PointCloud, freeze: Collection[str], is
                                replace(tuning.joint(), isometry=isometry, sensor=sensor),
                                lambda stage, share: watch.tell(f"Registering all faces together: {stage}"))
     with watch.stage("rebuild", "Closing the edges"):
-        moving = {index: face.displacement for index, face in enumerate(found.faces) if face.name not in freeze}
+        moving = {index: displacement for index, displacement in enumerate(found.displacements)
+                  if part.faces[index].name not in freeze}
         displacements = closing_displacements(part, moving)
-    return Deformation(displacements, {index: face for index, face in enumerate(found.faces) if face.points}, found)
+    return Deformation(displacements, {}, found)
 
 
 def each_by_itself(part: Workpiece, cloud: PointCloud, wanted: Sequence[int] | None, frozen: Collection[int],

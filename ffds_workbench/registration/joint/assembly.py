@@ -67,7 +67,7 @@ def gather(problem: Problem, loads: Array, spans: Index | slice = slice(None)) -
     return np.stack([np.bincount(controls, weights=flat[:, k], minlength=count) for k in range(3)], axis=1)
 
 
-def add_borders(equations: NormalEquations, problem: Problem, borders: Borders) -> None:
+def add_borders(equations: NormalEquations, problem: Problem, control_points: Array, borders: Borders) -> None:
     """Add m·(B δ) = offset at the visible borders."""
     samples, m = borders.samples, borders.direction
     order = np.argsort(samples.span, kind="stable")
@@ -79,7 +79,7 @@ def add_borders(equations: NormalEquations, problem: Problem, borders: Borders) 
     for a, b in COMPONENTS:
         values = np.add.reduceat(products * (m[order, a] * m[order, b])[:, None, None], first)
         add_products(equations, problem, a, b, values, spans)
-    pull = (borders.weight * borders.offset)[:, None, None] * basis[:, :, None] * m[:, None, :]
+    pull = (borders.weight * borders.offset(control_points))[:, None, None] * basis[:, :, None] * m[:, None, :]
     np.add(equations.right, gather(problem, pull, samples.span), out=equations.right)
 
 

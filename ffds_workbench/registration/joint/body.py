@@ -26,7 +26,7 @@ from .values import CellValues
 
 _PATCHES = 4
 """Patches per direction of a span whose heights are averaged: small against what the field changes over."""
-_MOST = 1500
+_MOST = 800
 """Patches that are taken, at random: a matrix of as many rows is factorised."""
 _LEAST_SEEN = 0.1
 """Patches with less than this of the usual weight are left out."""
@@ -39,6 +39,9 @@ _STEPS = 2
 _SHEET = 0.2
 """Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
 at neighbouring spans are nearly the same."""
+
+_NOTHING = 0.01
+"""Of the weight of a row, what can be left out."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,11 @@ class BodyRows:
     displacement: Array
     precision: Array
     sheet: NDArray[np.bool_]
+
+
+def body_tells(problem: Problem, trust: Trust) -> bool:
+    """Whether the body tells anything that counts: of sheets that keep all lengths it does not."""
+    return bool((_share(_is_sheet(problem, problem.part.solid_of_face), trust) > _NOTHING).any())
 
 
 def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellValues, borders: Borders,
@@ -90,21 +98,30 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellVal
     if earlier is not None:
         return replace(earlier, steps=earlier.steps + 1, displacement=displacement)
     covariance = field.covariance(place, body) + model.variance * model.noise * np.eye(3)
-    sheet = np.array(problem.couplings.pairs.solid_thickness)[body] > 0
-    return BodyRows(model, 1, spans, cells.tables[0][middle], displacement, np.linalg.inv(covariance), sheet)
+    return BodyRows(model, 1, spans, cells.tables[0][middle], displacement, np.linalg.inv(covariance),
+                    _is_sheet(problem, body))
 
 
 def add_body(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,
              trust: Trust) -> None:
     """Add the rows of the body at the current shape; of sheets as far as they are not isometric."""
-    share = np.where(rows.sheet, _SHEET * (1 - trust.isometry), 1.0)
-    precision = share[:, None, None] * rows.precision
+    precision = _share(rows.sheet, trust)[:, None, None] * rows.precision
     products = rows.basis[:, :, None] * rows.basis[:, None, :]
     for a, b in COMPONENTS:
         add_products(equations, problem, a, b, precision[:, a, b, None, None] * products, rows.spans)
     now = np.einsum("nc,ncx->nx", rows.basis, control_points[problem.lattices.controls[rows.spans]])
     pull = np.einsum("nxy,ny->nx", precision, rows.displacement - now)
     np.add(equations.right, gather(problem, rows.basis[:, :, None] * pull[:, None, :], rows.spans), out=equations.right)
+
+
+def _is_sheet(problem: Problem, solid: Index) -> NDArray[np.bool_]:
+    """Whether solids (n,) are sheets."""
+    return np.asarray(problem.couplings.pairs.solid_thickness)[solid] > 0
+
+
+def _share(sheet: NDArray[np.bool_], trust: Trust) -> Array:
+    """Of the weight of rows (n,), those of a ``sheet`` or others."""
+    return np.where(sheet, _SHEET * (1 - trust.isometry), 1.0)
 
 
 def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellValues, borders: Borders) -> Observations:
@@ -127,9 +144,8 @@ def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellValu
     normal = normals(jet, cells.outward)[0][span, cell]
     along = np.einsum("nx,nx->n", normal, jet.position[span, cell] - nominal) + height[span, part]
     body = problem.part.solid_of_face
-    some = np.arange(0, len(borders.offset), _BORDERS)
-    edge, out = borders.samples.take(some), borders.direction[some]
-    across = np.einsum("nx,nx->n", out, edge.displacement(control_points)) + borders.offset[some]
+    some = np.arange(0, len(borders.along), _BORDERS)
+    edge, out, across = borders.samples.take(some), borders.direction[some], borders.along[some]
     return Observations(np.concatenate([nominal, edge.nominal[0]]), np.concatenate([normal, out]),
                         np.concatenate([body[problem.lattices.face_of_span[span]], body[edge.face]]),
                         np.concatenate([along, across]),

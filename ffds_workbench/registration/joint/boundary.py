@@ -24,6 +24,8 @@ _FARTHEST = 2.0
 """Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
 _HARDLY_MOVES = 0.2
 """Movement in mm of the edges after which points keep their samples, which are farther apart."""
+_SAME = 0.1
+"""Movement in mm of the edges that changes nothing of where their borders are found."""
 _SHARP = 0.7
 _RANKS, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
@@ -46,20 +48,26 @@ _MOST_POINTS = 250_000
 
 @dataclass(frozen=True)
 class Borders:
-    """Rows m·δ = offset at places on edges.
+    """Rows m·d = along at places on edges.
 
     Attributes
     ----------
     samples : the places, on the seen face
     direction : (n, 3) m, out of the face and in its plane
-    offset : (n,) in mm
+    along : (n,) displacement in mm
     weight : (n,) 1/mm²
+    shape : (k, 3) the sharp edges when they were looked for
     """
 
     samples: Samples
     direction: Array
-    offset: Array
+    along: Array
     weight: Array
+    shape: Array
+
+    def offset(self, control_points: Array) -> Array:
+        """How far the borders lie outside the edges of the current shape: (n,) in mm."""
+        return self.along - np.einsum("nx,nx->n", self.direction, self.samples.displacement(control_points))
 
 
 @dataclass(frozen=True)
@@ -118,7 +126,7 @@ def find_near_edges(points: Array, edges: EdgeSamples, sides: EdgeSides, control
     """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape; those that are
     ``known`` while the edges hardly move."""
     sharp = np.flatnonzero(sides.sharp)
-    place = (edges.first.nominal[0] + edges.first.displacement(control_points))[sharp]
+    place = _sharp_edges(edges, sides, control_points)
     if known is not None and np.abs(place - known.place).max(initial=0.0) < _HARDLY_MOVES:
         return known
     points = points[:: 1 + len(points) // _MOST_POINTS]
@@ -129,8 +137,13 @@ def find_near_edges(points: Array, edges: EdgeSamples, sides: EdgeSides, control
     return NearEdges(points[near], sharp[nearest[near]], place)
 
 
-def find_borders(near: NearEdges, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float) -> Borders:
-    """Visible borders at the current shape, from the scan points near its edges."""
+def find_borders(near: NearEdges, edges: EdgeSamples, sides: EdgeSides, control_points: Array, noise: float,
+                 known: Borders | None) -> Borders:
+    """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
+    edges lie where they were looked for."""
+    shape = _sharp_edges(edges, sides, control_points)
+    if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _SAME:
+        return known
     points, row = near.points, near.row
     pairs = (edges.first, edges.second), (edges.second, edges.first)
     found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
@@ -139,7 +152,14 @@ def find_borders(near: NearEdges, edges: EdgeSamples, sides: EdgeSides, control_
     samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
     direction, offset, weight = (np.concatenate([side[k][r] for side, r in zip(found, rows, strict=True)])
                                  for k in range(3))
-    return Borders(samples, direction, offset, weight)
+    along = offset + np.einsum("nx,nx->n", direction, samples.displacement(control_points))
+    return Borders(samples, direction, along, weight, shape)
+
+
+def _sharp_edges(edges: EdgeSamples, sides: EdgeSides, control_points: Array) -> Array:
+    """Current places of the samples on sharp edges: (n, 3)."""
+    sharp = edges.first.take(np.flatnonzero(sides.sharp))
+    return sharp.nominal[0] + sharp.displacement(control_points)
 
 
 def _one_side(points: Array, row: Index, edges: EdgeSamples, seen: Samples, other: Samples, sign: Array,

@@ -6,7 +6,8 @@ components of the field are alike and independent; its length, size and noise ar
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -134,19 +135,36 @@ def likeliest(seen: Observations) -> Model:
     """The likeliest model of observations whose noise is to be found; its variance has a closed form."""
     few = seen.take(np.flatnonzero(seen.noise > 0)[:_FEW])
     extent = float(np.linalg.norm(np.ptp(few.place, axis=0)))
-    kinds = product((True, False), (False, True) if np.ptp(few.body) else (False,), _LENGTHS)
-    best, result = -np.inf, Model(True, False, extent)
-    for smooth, apart, length in kinds:
-        model = Model(smooth, apart, length * extent)
-        between = model.between(few)
-        for noise in _NOISES:
-            factor = cholesky(between + np.diag(noise * few.noise), lower=True, check_finite=False)
-            white = solve_triangular(factor, few.value, lower=True, check_finite=False)
-            variance = max(float(white @ white) / len(white), _LEAST)
-            score = -0.5 * len(white) * np.log(variance) - np.log(np.diag(factor)).sum()
-            if score > best:
-                best, result = score, Model(smooth, apart, model.length, variance, noise)
-    return result
+    best = -np.inf, Model(True, False, extent)
+    start = len(_LENGTHS) // 2, len(_NOISES) // 2
+    for smooth, apart in product((True, False), (False, True) if np.ptp(few.body) else (False,)):
+        models = [Model(smooth, apart, length * extent) for length in _LENGTHS]
+        between = cache(lambda length, models=models: models[length].between(few))
+        tried: dict[tuple[int, int], tuple[float, Model]] = {}
+        around = [start]
+        while around:
+            for length, noise in around:
+                model = replace(models[length], noise=_NOISES[noise])
+                tried[length, noise] = _likelihood(model, few, between(length))
+            start = max(tried, key=lambda at: tried[at][0])
+            around = [at for at in _beside(*start) if at not in tried]
+        best = max(best, tried[start], key=lambda found: found[0])
+    return best[1]
+
+
+def _beside(length: int, noise: int) -> list[tuple[int, int]]:
+    """Neighbours of a model on the grid of lengths and noises."""
+    near = (range(max(0, at - 1), min(at + 2, len(grid))) for at, grid in ((length, _LENGTHS), (noise, _NOISES)))
+    return list(product(*near))
+
+
+def _likelihood(model: Model, seen: Observations, between: Array) -> tuple[float, Model]:
+    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance."""
+    factor = cholesky(between + np.diag(model.noise * seen.noise), lower=True, check_finite=False)
+    white = solve_triangular(factor, seen.value, lower=True, check_finite=False)
+    variance = max(float(white @ white) / len(white), _LEAST)
+    score = -0.5 * len(white) * np.log(variance) - np.log(np.diag(factor)).sum()
+    return float(score), replace(model, variance=variance)
 
 
 def condition(model: Model, seen: Observations, pose: Pose, pose_variance: float) -> Field:

@@ -61,7 +61,7 @@ def _coarse(settings: JointSettings) -> JointSettings:
 
 def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:
     """Gauss-Newton steps, without the pull of visible borders: it changes little here and takes half of the time."""
-    state = replace(state, nearest=None)
+    state = replace(state, kept=replace(state.kept, nearest=None))
     for _ in range(most):
         state = iterate(problem, replace(stage, soft=False), state)
         if state.last_step < stage.enough:

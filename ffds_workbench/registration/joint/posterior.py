@@ -7,7 +7,6 @@ import numpy as np
 from ..splines import Array
 from .assembly import add_borders, add_data, evenly_bent, shape_equations
 from .body import add_body
-from .boundary import find_borders
 from .cholesky import FrontCholesky
 from .problem import Problem
 from .raster import normals
@@ -26,15 +25,14 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontChole
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
-    near = state.near_edges
-    assert near is not None and state.strained is not None and state.across is not None
-    equations = shape_equations(problem, state.control_points, 1.0, state.trust, state.strained, state.across)
+    kept = state.kept
+    equations = shape_equations(problem, state.control_points, 1.0, state.trust, kept.strained, kept.across)
     prior = equations.blocks.copy()
     add_data(equations, problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
-    add_borders(equations, problem, find_borders(near, problem.couplings.edges, problem.sides, state.control_points,
-                                                 problem.statistics.noise))
-    if state.body is not None:
-        add_body(equations, problem, state.control_points, state.body, state.trust)
+    if kept.borders is not None:
+        add_borders(equations, problem, state.control_points, kept.borders)
+    if kept.body is not None:
+        add_body(equations, problem, state.control_points, kept.body, state.trust)
     # The factor that the solve ends with is of an earlier trust in the priors.
     factor = FrontCholesky(problem.pattern.layout, equations.blocks)
     ratio = paid(problem, state) / max(_told(problem, factor, prior), 1.0)

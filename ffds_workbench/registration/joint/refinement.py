@@ -10,7 +10,7 @@ from scipy.linalg import lstsq
 from ..splines import Array, greville
 from .lattice import FaceLattice, cubic
 from .problem import Problem
-from .state import State
+from .state import State, keep
 
 _EXCESS = 1.5
 """Ratio of the variance of patch means to that of noise alone, from which the spans of a face are divided."""
@@ -66,7 +66,8 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
             values = np.moveaxis(np.tensordot(lstsq(rows, np.eye(len(sites)))[0], values, axes=(1, axis)), 0, axis)
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
-    return replace(state, control_points=control_points, strained=None, across=None, factor=None, nearest=None)
+    kept = replace(keep(fine, control_points), near_edges=state.kept.near_edges)
+    return replace(state, control_points=control_points, kept=kept)
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

@@ -2,7 +2,9 @@
 """What the joint solve returns."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -86,7 +88,8 @@ class JointRegistration:
 
     Attributes
     ----------
-    faces, edges : in FreeCAD's order
+    displacements : d(u, v) of every face in FreeCAD's order, in mm over the face's own (u, v)
+    assess : finds the bands and the flags of faces and edges; the shape stands without them
     solids : rigid motion of each solid of the part
     thickness : as-built mean thickness in mm of each solid that is a sheet, else None
     strain : rms strain of the mid surface that was found on observed faces
@@ -97,8 +100,8 @@ class JointRegistration:
     unsure : thickness in mm of a sheet of which the scan may show the other skin, contained in the bands; mostly 0
     """
 
-    faces: tuple[JointFace, ...]
-    edges: tuple[EdgeRegistration, ...]
+    displacements: tuple[SplineSurface, ...]
+    assess: Callable[[], tuple[tuple[JointFace, ...], tuple[EdgeRegistration, ...]]]
     solids: tuple[SolidMotion, ...]
     thickness: tuple[float | None, ...]
     strain: float
@@ -107,3 +110,17 @@ class JointRegistration:
     last_step: float
     used: int
     unsure: float = 0.0
+
+    @property
+    def faces(self) -> tuple[JointFace, ...]:
+        """The faces in FreeCAD's order."""
+        return self._assessed[0]
+
+    @property
+    def edges(self) -> tuple[EdgeRegistration, ...]:
+        """The edges in FreeCAD's order."""
+        return self._assessed[1]
+
+    @cached_property
+    def _assessed(self) -> tuple[tuple[JointFace, ...], tuple[EdgeRegistration, ...]]:
+        return self.assess()

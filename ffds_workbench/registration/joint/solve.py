@@ -15,17 +15,18 @@ import numpy as np
 from ...errors import RefusedError
 from ..splines import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
-from .body import add_body, body_rows
+from .body import add_body, body_rows, body_tells
 from .boundary import find_borders, find_near_edges
-from .correspondence import correspond, make_frames
+from .correspondence import Correspondence, correspond, make_frames
 from .ends import exact_ends
 from .part import JointPart
 from .problem import Problem, make_problem
+from .raster import Jet
 from .refinement import finer_faces, transfer
 from .result import JointRegistration
 from .settings import JointSettings, Stage, stages
 from .sides import facing, shown
-from .state import State, start
+from .state import Kept, State, start
 from .summary import refuse_bad, summarise
 from .system import solve
 from .trust import is_isometric, judge
@@ -34,8 +35,6 @@ from .values import medians, tukey_means
 Progress = Callable[[str, float], None]
 _SETTLED = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
-_AS_WELL = 1.01
-"""Ratio of squared misfits up to which two fits count as equal."""
 _HARDLY_MOVES = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
 _HARDLY_TURNS = 0.2
@@ -98,20 +97,24 @@ def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State, compared: b
 
 
 def _soft(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage; where it takes a sheet for one that stretched, whether it fits as well as one that did not."""
-    found = run_stage(problem, stage, state)
-    if stage.allowance == 1.0 or is_isometric(found) or not problem.skin.any():
-        return found
-    kept = run_stage(problem, replace(stage, allowance=1.0), state)
-    return kept if is_isometric(kept) and kept.values.misfit < _AS_WELL * found.values.misfit else found
+    """A soft stage; a sheet that complies without any stretch has not stretched."""
+    if stage.allowance < 1.0 and problem.skin.any():
+        unstretched = run_stage(problem, replace(stage, allowance=1.0), state)
+        if is_isometric(unstretched):
+            return unstretched
+    return run_stage(problem, stage, state)
 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    state = replace(state, nearest=None if stage.all_points else state.nearest)
+    if stage.body and not body_tells(problem, state.trust):
+        return state
+    kept = state.kept
+    if stage.all_points and not stage.body:
+        kept = replace(kept, nearest=None, factor=None)
     if stage.soft:
-        state = replace(state, across=problem.across(state.control_points),
-                        factor=None if stage.all_points else state.factor, body=None)
+        kept = replace(kept, across=problem.across(state.control_points), body=None)
+    state = replace(state, kept=kept)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))
         if state.last_step < stage.enough:
@@ -121,39 +124,49 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 def iterate(problem: Problem, stage: Stage, state: State) -> State:
     """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
-    points = problem.scan if stage.all_points else problem.sample
     jet = problem.cells.displaced(problem.lattices, state.control_points)
-    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    gate = max(stage.gate, 4 * problem.statistics.noise)
-    found = correspond(points, frames, gate, state.nearest if state.last_step < _HARDLY_MOVES else None,
-                       None if stage.all_points else state.facing)
-    if not len(found.point):
-        raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
+    found = _match(problem, stage, state, jet)
     cell_values = tukey_means if stage.all_points else medians
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
-    strained, turned = state.strained, state.turned
-    if strained is None or turned > _HARDLY_TURNS:
-        strained, turned = strain_blocks(problem, state.control_points), 0.0
-    across = state.across or problem.across(state.control_points)
-    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, strained,
-                                across)
+    kept = _renew(problem, stage, replace(state, values=values), jet)
+    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, kept.strained, kept.across)
     add_data(equations, problem, jet, values)
-    near_edges = state.near_edges
-    if stage.soft:
-        near_edges = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, state.control_points,
-                                     near_edges)
-        borders = find_borders(near_edges, problem.couplings.edges, problem.sides, state.control_points,
-                               problem.statistics.noise)
-        add_borders(equations, problem, borders)
-    body = state.body
-    if stage.body:
-        body = body_rows(problem, state.control_points, jet, values, borders, body)
-        add_body(equations, problem, state.control_points, body, state.trust)
-    near = state.factor if stage.bending > _SOFTER * state.stiff else None
+    if kept.borders is not None:
+        add_borders(equations, problem, state.control_points, kept.borders)
+    if kept.body is not None:
+        add_body(equations, problem, state.control_points, kept.body, state.trust)
+    near = kept.factor if stage.bending > _SOFTER * kept.stiff else None
     step, factor = solve(problem.pattern, equations.blocks, equations.right, near)
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
-    return replace(state, control_points=state.control_points + step, factor=factor,
-                   stiff=stage.bending if factor is not near else state.stiff, values=values, noise=values.noise,
-                   body=body, nearest=found.nearest, near_edges=near_edges, strained=strained, across=across,
-                   turned=turned + last_step, last_step=last_step, iterations=state.iterations + 1)
+    kept = replace(kept, nearest=found.nearest, turned=kept.turned + last_step, factor=factor,
+                   stiff=stage.bending if factor is not near else kept.stiff)
+    return replace(state, control_points=state.control_points + step, values=values, noise=values.noise,
+                   last_step=last_step, iterations=state.iterations + 1, kept=kept)
+
+
+def _match(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
+    """The scan points of the stage with their cells on the current shape."""
+    points = problem.scan if stage.all_points else problem.sample
+    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    gate = max(stage.gate, 4 * problem.statistics.noise)
+    found = correspond(points, frames, gate, state.kept.nearest if state.last_step < _HARDLY_MOVES else None,
+                       None if stage.all_points else state.facing)
+    if not len(found.point):
+        raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
+    return found
+
+
+def _renew(problem: Problem, stage: Stage, state: State, jet: Jet) -> Kept:
+    """What is kept, renewed where the shape has moved too far since."""
+    kept, control_points = state.kept, state.control_points
+    if kept.turned > _HARDLY_TURNS:
+        kept = replace(kept, strained=strain_blocks(problem, control_points), turned=0.0)
+    if stage.soft:
+        edges, sides = problem.couplings.edges, problem.sides
+        near_edges = find_near_edges(problem.scan, edges, sides, control_points, kept.near_edges)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, kept.borders)
+        kept = replace(kept, near_edges=near_edges, borders=borders)
+        if stage.body:
+            kept = replace(kept, body=body_rows(problem, control_points, jet, state.values, borders, kept.body))
+    return kept

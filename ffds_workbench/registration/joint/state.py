@@ -9,8 +9,9 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..splines import Array
+from .assembly import strain_blocks
 from .body import BodyRows
-from .boundary import NearEdges
+from .boundary import Borders, NearEdges
 from .cholesky import FrontCholesky
 from .lattice import Index
 from .problem import Across, Problem
@@ -25,6 +26,32 @@ _LEAST_REACH = 3.0
 
 
 @dataclass(frozen=True)
+class Kept:
+    """What the next step uses again, because the shape hardly changes.
+
+    Attributes
+    ----------
+    strained : `strain_blocks` of a shape near by
+    across : along which normals thickness is measured
+    turned : how far the shape has moved since `strained`, in mm
+    nearest : nearest cells of the scan points of this stage, once they were matched
+    near_edges, borders : scan points near the edges and visible borders, from the soft stages on
+    body : what the body tells of its faces, in its stage
+    factor, stiff : of an earlier normal matrix, and the multiple of the bending weight in it
+    """
+
+    strained: Array
+    across: Across
+    turned: float = 0.0
+    nearest: Index | None = None
+    near_edges: NearEdges | None = None
+    borders: Borders | None = None
+    body: BodyRows | None = None
+    factor: FrontCholesky | None = None
+    stiff: float = 0.0
+
+
+@dataclass(frozen=True)
 class State:
     """One point of the iteration.
 
@@ -34,16 +61,9 @@ class State:
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
+    kept : for the next one
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     trust : in the priors
-    near_edges : scan points near the edges, once they are needed, found on a shape that is hardly another
-    nearest : nearest cells of the scan points of this stage, while the shape hardly moves
-    strained : `strain_blocks` of a shape near by
-    body : what the body tells of its faces, in the last stage
-    across : along which normals thickness is measured
-    turned : how far the shape has moved since, in mm
-    factor : of an earlier normal matrix
-    stiff : the multiple of the bending weight in that matrix
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
     unsure : how far the whole part may be off in mm, because the scan may show the other skin of a sheet
@@ -53,19 +73,17 @@ class State:
     noise: Array
     reach: float
     values: CellValues
+    kept: Kept
     facing: Array | None = None
     trust: Trust = field(default_factory=Trust)
-    near_edges: NearEdges | None = None
-    nearest: Index | None = None
-    strained: Array | None = None
-    body: BodyRows | None = None
-    across: Across | None = None
-    turned: float = 0.0
-    factor: FrontCholesky | None = None
-    stiff: float = 0.0
     last_step: float = np.inf
     iterations: int = 0
     unsure: float = 0.0
+
+
+def keep(problem: Problem, control_points: Array) -> Kept:
+    """What a first step on a shape uses."""
+    return Kept(strain_blocks(problem, control_points), problem.across(control_points))
 
 
 def start(problem: Problem) -> State:
@@ -88,6 +106,6 @@ def start(problem: Problem) -> State:
         typical = min(typical, float(np.quantile(back, _SEEN)))
     faces = len(problem.part.faces)
     noise = np.full(faces, problem.statistics.noise)
-    return State(np.zeros((problem.lattices.count, 3)), noise,
-                 max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
-                 nothing(problem.distance.size, noise))
+    still = np.zeros((problem.lattices.count, 3))
+    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
+                 nothing(problem.distance.size, noise), keep(problem, still))

@@ -2,25 +2,18 @@
 """Turns the last state of the joint solve into its result, or refuses it."""
 from __future__ import annotations
 
-from typing import cast
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import RefusedError
 from ..rigid.motions import apply, best_fit
 from ..splines import Array
-from .bands import TWO_SIDED, edge_bands, normal_bands
-from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
+from .assessment import assess
 from .lattice import Index
-from .misfit import misfit, nearest_spans
-from .posterior import covariance_blocks
 from .problem import Problem
 from .raster import normals
-from .result import EdgeRegistration, Flag, JointFace, JointRegistration, SolidMotion
-from .samples import sample
-from .shared_noise import shared_errors
-from .sheet import parameters
+from .result import JointRegistration, SolidMotion
 from .state import State
 from .trust import is_isometric, observed_strain
 
@@ -28,7 +21,6 @@ _NOT_CONVERGED = 0.5
 _FEWEST_USED = 50
 _LEAST_SHARE = 0.02
 _COLLAPSED = 0.1
-Flags = NDArray[np.str_]
 
 
 def refuse_bad(problem: Problem, state: State) -> None:
@@ -83,15 +75,12 @@ def _motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
 
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
-    """The result with bands and flags."""
-    covariance, factor = covariance_blocks(problem, state)
-    seen = coverage(problem, state.values)
-    off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2
-    errors = shared_errors(problem, state, factor)
+    """The result; its bands and flags are found when they are asked for."""
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
+    displacements = tuple(problem.lattices.spline(index, state.control_points)
+                          for index in range(len(problem.part.faces)))
     return JointRegistration(
-        faces=_faces(problem, state, covariance, errors, seen, off),
-        edges=_edges(problem, state, covariance, errors, seen, off),
+        displacements, partial(assess, problem, state, displacements),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),
@@ -106,84 +95,3 @@ def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
         own = np.isin(pairs.front.face, solid)
         result.append(float(np.average(measured[own], weights=pairs.area[own])) if nominal and own.any() else None)
     return tuple(result)
-
-
-def _faces(problem: Problem, state: State, covariance: Array, errors: Array, seen: Coverage, off: Array
-           ) -> tuple[JointFace, ...]:
-    places, lattices = problem.stiffness.places, problem.lattices
-    jet = places.displaced(lattices, state.control_points, 3)
-    normal = normals(jet, places.outward)[0]
-    span, place = np.nonzero(places.inside)
-    face = lattices.face_of_span[span]
-    uv = parameters(lattices, places, span, place)
-    gap_inside = seen.gap_of(face, places.nominal.position[span, place])
-    gap = np.zeros(places.inside.shape)
-    gap[span, place] = gap_inside
-    beyond = np.maximum(gap - 2 * seen.near, 0.0)
-    bands = normal_bands(problem, covariance, errors, places.tables[0], normal, beyond, _border(problem),
-                         off)[span, place]
-    flags = seen.flags(gap_inside, face, 2 * seen.near)
-    points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
-    result = []
-    for index, geometry in enumerate(problem.part.faces):
-        own = face == index
-        result.append(JointFace(geometry.name, lattices.spline(index, state.control_points), int(points[index]),
-                                float(seen.share[index]), float(state.noise[index]), _most(flags[own]),
-                                _rms(bands[own]), uv[own], bands[own], flags[own]))
-    return tuple(result)
-
-
-def _border(problem: Problem) -> Array:
-    """Distance in mm of the Gauss places from the border of their face, that of the cells around them: (spans, k)."""
-    per_span = int(np.sqrt(problem.cells.inside.shape[1]))
-    cell = np.floor(problem.stiffness.places.local * per_span).astype(int)
-    return problem.distance[:, cell[:, 0] * per_span + cell[:, 1]]
-
-
-def _edges(problem: Problem, state: State, covariance: Array, errors: Array, seen: Coverage, off: Array
-           ) -> tuple[EdgeRegistration, ...]:
-    part, lattices = problem.part, problem.lattices
-    edges = [edge for edge in part.edges if edge.faces]
-    number = np.concatenate([np.full(len(edge.points), k) for k, edge in enumerate(part.edges) if edge.faces])
-    nominal = np.concatenate([edge.points for edge in edges])
-    first, last = (np.concatenate([np.full(len(edge.points), edge.faces[k]) for edge in edges]) for k in (0, -1))
-    samples = sample(part.faces, lattices, first, np.concatenate([edge.uv[0] for edge in edges]))
-    points = samples.nominal[0] + samples.displacement(state.control_points)
-    near = seen.edge_near(float(problem.margin.max()))
-    gaps = [seen.gap_of(face, nominal) for face in (first, last)]
-    gap = np.maximum(np.minimum(*gaps) - near, 0.0)
-    flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
-    spans = nearest_spans(problem, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
-    bands = edge_bands(problem, covariance, errors, samples, _directions(points, number), gap,
-                       off[spans].reshape(2, -1).max(axis=0))
-    result = []
-    for index, edge in enumerate(part.edges):
-        own = number == index
-        result.append(EdgeRegistration(edge.name, points[own], bands[own], flags[own], _most(flags[own]),
-                                       _rms(bands[own])))
-    return tuple(result)
-
-
-def _directions(points: Array, number: Index) -> Array:
-    after, before = np.roll(points, -1, axis=0), np.roll(points, 1, axis=0)
-    last, first = np.roll(number, -1) != number, np.roll(number, 1) != number
-    step = np.where(last[:, None], points, after) - np.where(first[:, None], points, before)
-    return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
-
-
-def _better(first: Flags, second: Flags) -> Flags:
-    """The stronger of two flags: an edge is observed if either of its faces is observed there."""
-    order = {OBSERVED: 0, BRIDGED: 1, CARRIED: 2}
-    rank = np.minimum([order[f] for f in first], [order[f] for f in second])
-    return np.array([OBSERVED, BRIDGED, CARRIED])[rank]
-
-
-def _most(flags: Flags) -> Flag:
-    if not len(flags):
-        return "carried"
-    names, count = np.unique(flags, return_counts=True)
-    return cast(Flag, str(names[np.argmax(count)]))
-
-
-def _rms(bands: Array) -> float:
-    return float(np.sqrt(np.mean(bands**2))) if len(bands) else float("inf")

@@ -56,13 +56,12 @@ def judge(problem: Problem, state: State, stage: Stage) -> State:
 
 def costs(problem: Problem, state: State) -> Trust:
     """What each prior costs at the current shape with its full weight, in chi-square units."""
-    assert state.across is not None
     control_points = state.control_points
     couplings, stiffness, settings = problem.couplings, problem.stiffness, problem.settings
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
     strain = (stiffness.weight * (strain**2).sum(axis=2)).sum(axis=1)
-    across, along = couplings.thickness_misfit(control_points, state.across.normal)
+    across, along = couplings.thickness_misfit(control_points, state.kept.across.normal)
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return Trust(isometry=float(problem.isometry_weights(Trust())[0] * strain[problem.skin].sum()),
                  thickness=float((weight * across**2).sum()),

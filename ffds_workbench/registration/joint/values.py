@@ -33,11 +33,6 @@ class CellValues:
     count: Array
     noise: Array
 
-    @property
-    def misfit(self) -> float:
-        """Mean squared height of the cells that were seen, in its own variance."""
-        return float((self.weight * self.height**2).sum()) / max(np.count_nonzero(self.weight), 1)
-
 
 def nothing(cells: int, noise: Array) -> CellValues:
     """The values before anything was matched."""
