@@ -5,7 +5,7 @@ STEP knows no tolerance of a single edge. OCCT's reader takes the largest distan
 pcurves at 23 parameters, ends included; between them it can be a little larger, and then the check for Boolean
 operations objects. So one pcurve starts late, along itself, by a little more than the largest distance: the shape stays
 as it is, and the first of the 23 parameters has the largest distance. The reader lets the edge start where its vertex
-is nearest, which is a little early or late itself.
+is nearest, which is a little early or late itself: that may take as much from the start as it adds to the rest.
 """
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ def late(trace: Trace, curve: PlacedCurve, gap: float, vertex: Array) -> Trace |
     start, soon = trace.at(np.array([0.0, _STEP]))
     speed = float(np.linalg.norm(soon - start)) / _STEP
     begin = curve.at(np.zeros(1))[0]
-    lateness = _MORE * gap + float(np.linalg.norm(start - begin) + np.linalg.norm(vertex - begin))
+    shift = float(np.linalg.norm(vertex - begin))
+    lateness = _MORE * (gap + shift) + float(np.linalg.norm(start - begin)) + shift
     span = max(_SPAN, _SPAN_PER_LATENESS * lateness / max(speed, 1e-12))
     if span > _LONGEST_SPAN or lateness > _LATEST:
         return None
