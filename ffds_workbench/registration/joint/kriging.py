@@ -154,8 +154,8 @@ def likeliest(seen: Observations) -> Model:
 
 def _beside(length: int, noise: int) -> list[tuple[int, int]]:
     """Neighbours of a model on the grid of lengths and noises."""
-    near = (range(max(0, at - 1), min(at + 2, len(grid))) for at, grid in ((length, _LENGTHS), (noise, _NOISES)))
-    return list(product(*near))
+    return list(product(range(max(0, length - 1), min(length + 2, len(_LENGTHS))),
+                        range(max(0, noise - 1), min(noise + 2, len(_NOISES)))))
 
 
 def _likelihood(model: Model, seen: Observations, between: Array) -> tuple[float, Model]:

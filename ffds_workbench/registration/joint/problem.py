@@ -29,6 +29,8 @@ _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
+_SAME_NORMAL = 0.01
+"""Change of a normal up to which it does for the thickness, of which it changes a ten-thousandth."""
 _WALL = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
@@ -74,9 +76,11 @@ class Problem:
     sides: EdgeSides
     margin: Array
 
-    def across(self, control_points: Array) -> Across:
-        """Rows of the thickness along the normals that the sheets have with these control points."""
+    def across(self, control_points: Array, known: Across | None = None) -> Across:
+        """Rows of the thickness along the normals that the sheets have with these control points, or hardly differ."""
         normal = self.couplings.sheet_normals(control_points)
+        if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
+            return known
         return Across(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
     @property

@@ -113,7 +113,7 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     if stage.all_points and not stage.body:
         kept = replace(kept, nearest=None, factor=None)
     if stage.soft:
-        kept = replace(kept, across=problem.across(state.control_points), body=None)
+        kept = replace(kept, across=problem.across(state.control_points, kept.across), body=None)
     state = replace(state, kept=kept)
     for _ in range(stage.iterations):
         state = iterate(problem, stage, judge(problem, state, stage))
