@@ -83,8 +83,10 @@ class Result:
     @cached_property
     def deviations(self) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
         """Of the same scan points from the nominal and from the as-built faces."""
+        with self.watch.stage("bands", "Finding the 95 % bands"):
+            deformed = list(self.found.faces)
         with self.watch.stage("deviation", "Measuring the deviation"):
-            return compare(self.part, self.shape, list(self.found.faces), self.scan.points)
+            return compare(self.part, self.shape, deformed, self.scan.points)
 
     @cached_property
     def certificate(self) -> Certificate:

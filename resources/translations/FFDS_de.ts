@@ -1170,6 +1170,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Nähte werden gesucht und gemessen</translation>
     </message>
     <message>
+      <source>Finding the 95 % bands</source>
+      <translation>Die 95-%-Bänder werden bestimmt</translation>
+    </message>
+    <message>
       <source>Finding the faces that the scan observes</source>
       <translation>Die Flächen werden gesucht, die der Scan erfasst</translation>
     </message>
