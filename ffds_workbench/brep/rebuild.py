@@ -113,7 +113,7 @@ class _Geometry:
         for face, new in faces.items():
             for used in new.edges:
                 self._uses.setdefault(used.edge, []).append((face, used))
-        self._gaps: dict[int, tuple[PlacedCurve, float]] = {}
+        self._gaps: dict[int, tuple[PlacedCurve, list[float]]] = {}
         self._late: dict[tuple[int, int], Pcurve] = {}
         self.edges = sorted(self._uses)
         self._staying_vertices = {vertex for edge, ends in enumerate(instances.edge_ends)
@@ -164,20 +164,20 @@ class _Geometry:
 
     def _new_edge(self, edge: int, new: Spline | None, curve: PlacedCurve) -> NewEdge:
         """The edge with a tolerance that covers how far its faces are from its curve; keeps both for `start_late`."""
-        gap = largest_gap(curve, self._traces(edge))
-        self._gaps[edge] = curve, gap
-        return NewEdge(new, max(self._curves(edge).tolerance, _covering(gap)))
+        gaps = [largest_gap(curve, [trace]) for trace in self._traces(edge)]
+        self._gaps[edge] = curve, gaps
+        return NewEdge(new, max(self._curves(edge).tolerance, _covering(max(gaps, default=0.0))))
 
     def start_late(self, edges: Mapping[int, NewEdge], vertices: Mapping[int, NewVertex]
                    ) -> tuple[dict[int, NewEdge], dict[int, NewVertex]]:
         """The edges and vertices with tolerances for the pcurves that start late (see `late_start`), one per edge."""
         edges, vertices = dict(edges), dict(vertices)
-        for edge, (curve, gap) in self._gaps.items():
+        for edge, (curve, gaps) in self._gaps.items():
             starts = [vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"]
-            if gap <= _EXACT or not starts:
+            if max(gaps, default=0.0) <= _EXACT or not starts:
                 continue
             start = self._point(starts[0]) if vertices[starts[0]].point is None else vertices[starts[0]].point
-            later = self._later(edge, curve, gap, start)
+            later = self._later(edge, curve, gaps, start)
             if later is None:
                 continue
             reach = float(np.linalg.norm(later.at(np.zeros(1)) - start))
@@ -188,11 +188,14 @@ class _Geometry:
                                                                            _covering(reach)))
         return edges, vertices
 
-    def _later(self, edge: int, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:
-        single = [(face, Trace(self._faces[face].surface, used.pcurves[0])) for face, used in self._uses[edge]
-                  if len(used.pcurves) == 1]
-        for face, trace in sorted(single, key=lambda use: use[1].at_seam(0.0)):
-            later = late(trace, curve, gap, vertex)
+    def _later(self, edge: int, curve: PlacedCurve, gaps: list[float], vertex: Array) -> Trace | None:
+        """One trace of the edge starting late, off seams if possible, and the one that gapes most: readers of STEP may
+        make its pcurve anew, and worse, where another one has the largest distance."""
+        uses = [(face, len(used.pcurves) == 1) for face, used in self._uses[edge] for _ in used.pcurves]
+        single = [(trace.at_seam(0.0), -gap, face, trace) for (face, alone), trace, gap in
+                  zip(uses, self._traces(edge), gaps, strict=True) if alone]
+        for _, _, face, trace in sorted(single, key=lambda use: use[:3]):
+            later = late(trace, curve, max(gaps), vertex)
             if later is not None:
                 self._late[face, edge] = later.pcurve
                 return later
