@@ -27,8 +27,7 @@ from ..brep import workpiece
 from ..brep.simulation import target_of as sensor_target_of
 from ..registration.face import FaceGeometry
 from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
-from ..registration.rigid.motions import angle, apply, motion
-from ..registration.rigid.smooth import best_fit
+from ..registration.rigid.motions import angle, apply, best_fit, motion
 from ..scan.sensor import SensorSettings, View, simulate
 from .families import Case, make_case
 from .page import Section, Table, write

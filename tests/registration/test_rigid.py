@@ -22,9 +22,8 @@ from ffds_workbench.brep.simulation import target_of as sensor_target_of
 from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
 from ffds_workbench.registration.rigid.ends import find_ends
 from ffds_workbench.registration.rigid.field import Field
-from ffds_workbench.registration.rigid.motions import angle, apply, difference, motion, shift
+from ffds_workbench.registration.rigid.motions import angle, apply, best_fit, difference, motion, shift
 from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
-from ffds_workbench.registration.rigid.smooth import best_fit
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
 from ffds_workbench.registration.rigid.units import plausible_scales
 from ffds_workbench.scan.sensor import SensorSettings, View, simulate

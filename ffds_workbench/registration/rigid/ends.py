@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..splines import Array
 from .motions import apply
@@ -31,11 +32,13 @@ class Ends:
 
     Attributes
     ----------
+    stretch : (n,) their numbers
     places, outwards : (n, 3) in mm and unit vectors
     gap : (n,) in mm from the rim to the end of the scan, negative where it ends inside
     weight : (n,) 1/mm²
     """
 
+    stretch: NDArray[np.intp]
     places: Array
     outwards: Array
     gap: Array
@@ -48,7 +51,32 @@ class Ends:
         return replace(self, gap=self.gap + more)
 
 
-def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends:
+@dataclass(frozen=True)
+class Beside:
+    """Which points of a scan lie near which points of the rims.
+
+    Attributes
+    ----------
+    row, entry : (k,) numbers of the point and of the one on the rim; a point beside an edge has one on either face
+    """
+
+    row: NDArray[np.intp]
+    entry: NDArray[np.intp]
+
+
+def beside(rims: Rims, points: Array, reach: float) -> Beside:
+    """What of points (n, 3), in model coordinates, lies within ``reach`` mm of the rims."""
+    if not len(rims.points):
+        return Beside(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))
+    nearest = rims.tree.query(points, distance_upper_bound=reach, workers=workers(points))[1]
+    row = np.flatnonzero(nearest < len(rims.points))
+    first = nearest[row]
+    partner = rims.partner[first]
+    other = partner != first
+    return Beside(np.concatenate([row, row[other]]), np.concatenate([first, partner[other]]))
+
+
+def find_ends(rims: Rims, points: Array, width: float, tolerance: float, near: Beside | None = None) -> Ends:
     """Count the points near the rims: as many as the strip inside lets expect lie on a face that ends at its rim.
 
     Of a scan of density λ per mm of depth, n = λ (width + gap) points lie within the width of the rim or beyond it,
@@ -59,28 +87,33 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float) -> Ends
     points : (n, 3) in model coordinates, of even density on each side of a rim
     width : in mm; ends farther than this from the rim are not recognised
     tolerance : in mm, height up to which a point is on a face
+    near : which points lie near the rims, if known
     """
-    if not len(rims.points):
+    depth = depth_of(width)
+    if near is None:
+        near = beside(rims, points, 1.1 * depth)
+    if not len(near.row):
         return _nothing()
-    depth = _STRIP * width
-    nearest = rims.tree.query(points, distance_upper_bound=1.1 * depth, workers=workers(points))[1]
-    row = np.flatnonzero(nearest < len(rims.points))
-    entry, row = np.concatenate([nearest[row], rims.partner[nearest[row]]]), np.concatenate([row, row])
-    chosen = rims.clear(depth)[entry]
-    chosen[len(row) // 2:] &= entry[len(row) // 2:] != entry[: len(row) // 2]
-    row, entry = row[chosen], entry[chosen]
+    chosen = rims.clear(depth)[near.entry]
+    row, entry = near.row[chosen], near.entry[chosen]
     offset = points[row] - rims.points[entry]
     beyond = np.einsum("ni,ni->n", offset, rims.outwards[entry])
     height = np.abs(np.einsum("ni,ni->n", offset, rims.normals[entry]))
-    on, beside = height < tolerance, np.abs(beyond) < width
+    on, close = height < tolerance, np.abs(beyond) < width
     stretch, count = rims.stretch[entry], len(rims.middles)
-    inside, near, strange = (np.bincount(stretch[chosen], minlength=count) for chosen in (
-        on & (beyond < -width) & (beyond > -depth), on & beside, beside & ~on & (height < tolerance + width)))
+    inside, around, strange = (np.bincount(stretch[some], minlength=count) for some in (
+        on & (beyond < -width) & (beyond > -depth), on & close, close & ~on & (height < tolerance + width)))
     density = inside / (depth - width)
-    gap = near / np.maximum(density, 1e-12) - width
-    seen = (inside >= _FEWEST) & (strange < _STRANGE * density * width) & (np.abs(gap) < _SATURATED * width)
-    spread = 1.5 * width / np.maximum(density, 1e-12) + (_FLOOR * width) ** 2
-    return Ends(rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread[seen])
+    gap = around / np.maximum(density, 1e-12) - width
+    seen = np.flatnonzero((inside >= _FEWEST) & (strange < _STRANGE * density * width)
+                          & (np.abs(gap) < _SATURATED * width))
+    spread = 1.5 * width / np.maximum(density[seen], 1e-12) + (_FLOOR * width) ** 2
+    return Ends(seen, rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread)
+
+
+def depth_of(width: float) -> float:
+    """Depth in mm of the strip that is looked at for ends within the width."""
+    return _STRIP * width
 
 
 def width_of_ends(rims: Rims, density: float, least: float) -> float:
@@ -91,4 +124,4 @@ def width_of_ends(rims: Rims, density: float, least: float) -> float:
 
 
 def _nothing() -> Ends:
-    return Ends(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
+    return Ends(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))

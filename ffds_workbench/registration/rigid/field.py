@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 from ..splines import Array
 from .fine import tukey
 
-_STRAIN_POINTS = 500
+_STRAIN_POINTS = 200
+_LEAST = 1e-6
+"""Least spread of points that is reckoned with, as a share of the part's size."""
+_ROUNDS = 2
+"""Of weights by what the last fit left."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,35 @@ STIFF = Freedom(2, 1e-2)
 """Tells the part from another one."""
 SOFT = Freedom(3, 1e-3, 0.63)
 """Follows a deformed part; the surface stretches little, or bumps that no polynomial has would let it slide."""
+
+
+@dataclass(frozen=True)
+class Pulls:
+    """Displacements wanted at places in one direction each, beside those along the normals.
+
+    Attributes
+    ----------
+    places, directions : (k, 3) in mm and unit vectors
+    wanted, left : (k,) in mm: the whole displacement, and how much of it is not reached yet
+    weight : (k,) 1/mm²
+    cutoff : least cut-off in mm of Tukey's weights
+    share : weight against points whose spread is theirs
+    """
+
+    places: Array
+    directions: Array
+    wanted: Array
+    left: Array
+    weight: Array
+    cutoff: float
+    share: float
+
+    def weights(self, left: Array, spread: float) -> Array:
+        """(k,), with what is left of each in mm and the standard deviation of the points in mm."""
+        if not len(left):
+            return left
+        cutoff = max(4.0 * 1.4826 * float(np.median(np.abs(left))), self.cutoff)
+        return self.share * spread**2 * self.weight * tukey(left, cutoff)
 
 
 @dataclass(frozen=True)
@@ -86,7 +119,7 @@ class Field:
 
 
 def fit_field(points: Array, normal: Array, wanted: Array, left: Array, chosen: NDArray[np.bool_], tangents: Array,
-              gate: float, size: float, freedom: Freedom) -> Field:
+              gate: float, size: float, freedom: Freedom, pulls: Pulls | None = None) -> Field:
     """Least-squares field whose normal component is as wanted at the chosen points.
 
     Points count by how much of it is left to explain, within the gate or the spread of all, if that is wider.
@@ -100,21 +133,30 @@ def fit_field(points: Array, normal: Array, wanted: Array, left: Array, chosen: 
     gate : in mm
     size : of the part in mm
     freedom : of the field
+    pulls : what is wanted besides
     """
-    field = Field.still(points, size, freedom.degree)
-    rows = (field.monomials(points)[:, :, None] * normal[:, None, :]).reshape(len(points), -1)
+    count, field = len(points), Field.still(points, size, freedom.degree)
+    places, ways = points, normal
+    if pulls is not None:
+        places, ways = np.concatenate([points, pulls.places]), np.concatenate([normal, pulls.directions])
+        wanted, left = np.concatenate([wanted, pulls.wanted]), np.concatenate([left, pulls.left])
+    rows = (field.monomials(places)[:, :, None] * ways[:, None, :]).reshape(len(places), -1)
     if chosen.sum() < 2 * rows.shape[1]:
         return field
     fixed = np.zeros((rows.shape[1],) * 2)
     if freedom.stretch:
-        some = np.arange(0, len(rows), 1 + len(rows) // _STRAIN_POINTS)
+        some = np.arange(0, count, 1 + count // _STRAIN_POINTS)
         strain = field.strain(points[some], tangents[some])
-        fixed += freedom.stretch**2 * len(rows) / len(some) * strain.T @ strain
-    for _ in range(3):
-        spread = 1.4826 * float(np.median(np.abs(left[chosen])))
-        weight = chosen * tukey(left, max(4.0 * spread, gate))
-        matrix = (rows * weight[:, None]).T @ rows + fixed
-        matrix += np.eye(len(matrix)) * (freedom.ridge * weight.sum() / 30.0 + 1e-12)
-        coefficients = np.linalg.solve(matrix, rows.T @ (weight * wanted))
+        fixed += freedom.stretch**2 * count / len(some) * (strain.T @ strain)
+    for _ in range(_ROUNDS):
+        spread = max(1.4826 * float(np.median(np.abs(left[:count][chosen]))), _LEAST * size)
+        weight = chosen * tukey(left[:count], max(4.0 * spread, gate))
+        ridge = freedom.ridge * weight.sum() / 30.0 + 1e-12
+        if pulls is not None:
+            weight = np.concatenate([weight, pulls.weights(left[count:], spread)])
+        weighted = rows * weight[:, None]
+        matrix = weighted.T @ rows + fixed
+        matrix.flat[:: len(matrix) + 1] += ridge
+        coefficients = np.linalg.solve(matrix, weighted.T @ wanted)
         left = wanted - rows @ coefficients
     return replace(field, coefficients=coefficients.reshape(-1, 3))

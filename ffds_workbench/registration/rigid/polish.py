@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
+from .deformed import Outline, settle
 from .ends import Ends, find_ends, width_of_ends
 from .fine import gauss_newton, refine, tukey
 from .motions import apply, step
 from .search import field_of
 from .sketch import Sketch, thin
-from .smooth import Outline, settle
 from .target import Target, once_for_target, workers
 from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
-_FEW = 500
-"""Points that a pose is brought nearer with."""
+_FEW, _MATCHED = 500, 1_000
+"""Points that a pose is brought nearer with, and about how many a deformed part is matched by."""
 _POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 24_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
 _LEAST_HELD = 1e-4
@@ -64,15 +64,17 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage
     return polish_deformed(target, sketch, pose, normals, coverage)
 
 
-def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float) -> Array:
-    """The pose that fits all of a deformed part best."""
-    reach = _WIDE * target.size
-    outward = normals @ pose[:3, :3]
-    few = slice(None, None, 1 + len(outward) // _FEW)
-    pose = refine(target, sketch.points[few], pose, (reach,), 8, outward[few])
+def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float,
+                    start: Array | None = None) -> Array:
+    """The pose that fits all of a deformed part best; ``start`` is where the points nearly lie without the deformation,
+    (n, 3) in model coordinates, if known."""
+    some = slice(None, None, max(1, len(normals) // _MATCHED))
+    points, outward, reach = sketch.points[some], (normals @ pose[:3, :3])[some], _WIDE * target.size
+    if start is None:
+        pose = refine(target, points, pose, (reach,), 8, outward)
     outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
                       max(sketch.noise, _FINEST * target.size))
-    return settle(target, sketch.points, pose, outward, reach, outline)
+    return settle(target, points, pose, outward, reach, outline, None if start is None else start[some])
 
 
 def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,14 +18,15 @@ from .sketch import Plane, Sketch, find_table, sketch_of
 from .starts import turns_up_to
 from .target import Target
 from .verdict import FAILS, answer_of
-from .verify import examine, is_rough
+from .verify import examine, is_rough, matched, weigh
 
 _FEWEST = 50
 _ROTATIONS, _TURN = 12, 0.5
 """Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
 _POOL, _POINTS, _THIRD = 24_000, 1_500, 3
-"""Points of the scan that are looked at; those that tell sides, and a deformation; and every which of them is matched
-while a pose is only on trial."""
+"""Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
+_OUTLINE = 2
+"""Every which point tells where the scan of a deformed part ends."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 8
@@ -56,7 +57,7 @@ def quickly(target: Target, scan: Array, scale: float, generator: np.random.Gene
     sides = [_refined(target, sketch, candidates.poses[0], signs)
              for signs in (candidates.signs[0], -candidates.signs[0])]
     return (_undeformed(target, sketch, table, sides, scale)
-            or _deformed(target, sketch, table, whole, sides, scale))
+            or _deformed(target, sketch, table, sides, scale))
 
 
 @dataclass(frozen=True)
@@ -81,28 +82,30 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
     clear: list[Verified] = []
     for side in sides:
         normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
+        if turned >= TURNED or is_deformed(target, sketch, side.pose, normals):
+            continue
         evidence = examine(target.light, sketch, side.pose, normals, table, rounds=0)
-        if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS and turned < TURNED:
+        if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS:
             clear.append(Verified(side.pose, evidence, normals))
     if not clear:
         return None
     best = best_of(clear, "fine", target, sketch)
-    if is_deformed(target, sketch, best.pose, best.normals):
-        return None
     pose = polish_rigid(target, sketch, best.pose, best.evidence.coverage)
     return answer_of(target, sketch, table, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
 
 
-def _deformed(target: Target, sketch: Sketch, table: Plane | None, whole: Sketch, sides: Sequence[_Side], scale: float,
+def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
               ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
-    looks = [examine(target.light, sketch, side.pose, side.normals, table) for side in sides]
+    matches = [matched(target.light, sketch, side.pose, side.normals) for side in sides]
+    looks = [weigh(target.light, sketch, side.pose, side.normals, table, found)
+             for side, found in zip(sides, matches, strict=True)]
     order = np.argsort([look.misfit for look in looks])
     side, evidence = sides[order[0]], looks[order[0]]
     if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * looks[order[1]].misfit:
         return None
-    pose = polish_deformed(target, whole, side.pose, outward(whole, side.signs) @ side.pose[:3, :3].T,
-                           evidence.coverage)
+    pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
+                           evidence.coverage, matches[order[0]].points)
     normals = outward(sketch, side.signs) @ pose[:3, :3].T
     if evidence.certainty < _CERTAIN:
         evidence = examine(target.light, sketch, pose, normals, table)

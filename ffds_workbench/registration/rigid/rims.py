@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
+from scipy.ndimage import distance_transform_cdt
 from scipy.spatial import cKDTree
 
 from ..face import FaceGeometry
@@ -88,15 +88,15 @@ class Rims:
 
     @cached_property
     def reach(self) -> float:
-        """Distance in mm up to which ``near`` leaves no point out: the edge length of its voxels."""
+        """Edge length in mm of the voxels that tell which points lie near a rim."""
         return float(np.ptp(self.points, axis=0).max()) / _VOXELS
 
     @cached_property
-    def _beside(self) -> NDArray[np.bool_]:
-        """Which voxels touch one that holds a point; flat."""
-        held = np.zeros((_VOXELS + 4,) * 3, dtype=bool)
-        held.ravel()[self._voxel(self.points, np.eye(4))] = True
-        return np.asarray(binary_dilation(held, np.ones((3, 3, 3)))).ravel()
+    def _apart(self) -> NDArray[np.int32]:
+        """How many voxels each is from one that holds a point, across faces, edges or corners; flat."""
+        free = np.ones((_VOXELS + 4,) * 3, dtype=bool)
+        free.ravel()[self._voxel(self.points, np.eye(4))] = False
+        return np.asarray(distance_transform_cdt(free, "chessboard")).ravel()
 
     def _voxel(self, points: Array, pose: Array) -> NDArray[np.int32]:
         """Number of the voxel that a pose (4, 4) moves each point (n, 3) into."""
@@ -105,9 +105,12 @@ class Rims:
         x, y, z = np.clip(place, 0, _VOXELS + 3, out=place).astype(np.int32)
         return (x * (_VOXELS + 4) + y) * (_VOXELS + 4) + z
 
-    def near(self, points: Array, pose: Array) -> NDArray[np.intp]:
-        """Indices of the points (n, 3) that a pose (4, 4) moves near a rim, without a search for the nearest."""
-        return np.flatnonzero(self._beside[self._voxel(points, pose)])
+    def near(self, points: Array, pose: Array, reach: float = 0.0) -> NDArray[np.intp]:
+        """Indices of the points (n, 3) that a pose (4, 4) moves within ``reach`` mm of a rim, or a voxel, and of
+        some beside those: without a search for the nearest."""
+        if not len(self.points):
+            return np.zeros(0, dtype=np.intp)
+        return np.flatnonzero(self._apart[self._voxel(points, pose)] <= max(1.0, np.ceil(reach / self.reach)))
 
     def overshoot(self, points: Array, face: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
         """How far points stick out of the face they are matched with, beyond its rim.

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..splines import Array
 from .motions import apply
 from .sketch import Plane, Sketch
-from .smooth import ROUNDS, match
+from .smooth import ROUNDS, Match, match
 from .target import Target
 
 _NORMALS_AGREE = 0.6
@@ -80,10 +80,19 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     table : the plane beside the part, scan coordinates
     rounds : of the smooth deformation that is allowed for, see ``match``
     """
-    size = target.size
-    moved = apply(pose, sketch.points)
+    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds))
+
+
+def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: int = ROUNDS) -> Match:
+    """The sketch matched with the part; see ``examine``."""
     # under large noise a smooth deformation could not be told from a wrong pose
-    found = match(target, moved, normals, 2.0 * _NEAR * size, 0 if is_rough(target, sketch) else rounds)
+    return match(target, apply(pose, sketch.points), normals, 2.0 * _NEAR * target.size,
+                 0 if is_rough(target, sketch) else rounds)
+
+
+def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None, found: Match) -> Evidence:
+    """What a match says of a pose; see ``examine``."""
+    size, moved = target.size, apply(pose, sketch.points)
     beside = _beside(target, found.points, found.nearest, found.height, found.normal)
     agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
     cap = max(0.008 * size, 4.0 * sketch.noise)
