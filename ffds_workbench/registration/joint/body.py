@@ -26,7 +26,7 @@ from .values import CellValues
 
 _PATCHES = 4
 """Patches per direction of a span whose heights are averaged: small against what the field changes over."""
-_MOST = 800
+_MOST = 1500
 """Patches that are taken, at random: a matrix of as many rows is factorised."""
 _LEAST_SEEN = 0.1
 """Patches with less than this of the usual weight are left out."""
