@@ -39,7 +39,6 @@ _STEPS = 2
 _SHEET = 0.2
 """Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
 at neighbouring spans are nearly the same."""
-
 _NOTHING = 0.01
 """Of the weight of a row, what can be left out."""
 

@@ -24,7 +24,7 @@ _FARTHEST = 2.0
 """Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
 _HARDLY_MOVES = 0.2
 """Movement in mm of the edges after which points keep their samples, which are farther apart."""
-_SAME = 0.1
+_SAME = 0.03
 """Movement in mm of the edges that changes nothing of where their borders are found."""
 _SHARP = 0.7
 _RANKS, _WITHIN_NOISE = 3, 0.4

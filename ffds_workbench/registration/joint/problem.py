@@ -29,8 +29,8 @@ _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
-_SAME_NORMAL = 0.01
-"""Change of a normal up to which it does for the thickness, of which it changes a ten-thousandth."""
+_SAME_NORMAL = 0.02
+"""Change of a normal up to which it does for the thickness, of which it changes one in five thousand."""
 _WALL = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
@@ -163,6 +163,6 @@ def _positions(lattices: Lattices, cells: Places) -> Array:
 
 def _nodes_of(matrix: csr_matrix) -> csr_matrix:
     """Scalar pattern of a matrix with three rows and columns per control point."""
-    coo = matrix.tocoo()
+    blocks = matrix.tobsr((3, 3))
     n = matrix.shape[0] // 3
-    return csr_matrix((np.ones(coo.nnz), (coo.row // 3, coo.col // 3)), shape=(n, n))
+    return csr_matrix((np.ones(len(blocks.indices)), blocks.indices, blocks.indptr), shape=(n, n))

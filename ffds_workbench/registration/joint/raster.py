@@ -116,6 +116,6 @@ def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells
         if len(border):
             spans = np.flatnonzero(lattices.face_of_span == index)
             position = cells.nominal.position[spans].reshape(-1, 3)
-            near = cKDTree(border).query(position, distance_upper_bound=_FAR_FROM_TRIM, workers=-1)[0]
+            near = cKDTree(border).query(position, distance_upper_bound=_FAR_FROM_TRIM)[0]
             distance[spans] = np.minimum(near, _FAR_FROM_TRIM).reshape(len(spans), -1)
     return np.where(cells.inside, distance, -distance)

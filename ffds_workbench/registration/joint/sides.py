@@ -53,27 +53,28 @@ _NEAR = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
 
-def facing(problem: Problem, reach: float) -> list[Array | None]:
+def facing(problem: Problem, state: State) -> list[Array | None]:
     """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
 
-    ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
-    nearer side first; None where no sheet is so thin that its sides could be mixed up, or the noise hides them.
+    ``state`` is that of the nominal part. Two of them where a large piece is in doubt, the nearer side first; None
+    where no sheet is so thin that its sides could be mixed up, or the noise hides them.
     """
+    reach = state.reach
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
     if not sheets or min(sheets) > _THICK * reach or problem.statistics.noise > min(sheets) / _ROUGH:
         return [None]
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
-    near = cKDTree(place).query(problem.sample, distance_upper_bound=reach, workers=-1)[0]
-    if np.isfinite(near).sum() < _FEWEST:
+    near = state.apart < reach
+    if near.sum() < _FEWEST:
         return [None]
     generator = np.random.default_rng(problem.settings.seed)
-    sketch = sketch_of(problem.sample[np.isfinite(near)], generator, _POINTS, finer=1)
-    distance, near = cKDTree(sketch.points).query(problem.sample, workers=-1)
+    sketch = sketch_of(problem.sample[near], generator, _POINTS, finer=1)
+    distance, nearest = cKDTree(sketch.points).query(problem.sample, workers=-1)
     known = (distance < _NEAR * np.median(distance))[:, None]
     sides = [_one_sign_each(sketch, signs[sketch.piece]) for signs in _signs(place, normal, sketch, 2 * reach)]
-    return [np.where(known, (side[:, None] * sketch.normals)[near], 0.0) for side in sides
+    return [np.where(known, (side[:, None] * sketch.normals)[nearest], 0.0) for side in sides
             if side is sides[0] or (side != sides[0]).any()]
 
 

@@ -37,7 +37,7 @@ _SETTLED = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
 _HARDLY_MOVES = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
-_HARDLY_TURNS = 0.2
+_HARDLY_TURNS = 0.5
 """Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
 so far that the steps would go astray."""
 _SOFTER = 0.03
@@ -67,7 +67,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = start(problem)
     steps = stages(settings.schedule, state.reach)
     report("joint solve", 0.0)
-    sides = facing(problem, state.reach)
+    sides = facing(problem, state)
     state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward), len(sides) > 1)
                             for outward in sides])
     for number, stage in enumerate(steps):

@@ -60,6 +60,7 @@ class State:
     control_points : (controls, 3) displacement in mm
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
+    apart : (n,) how far the points of the sample lie from the nominal part, in mm
     values : of the last iteration
     kept : for the next one
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
@@ -72,6 +73,7 @@ class State:
     control_points: Array
     noise: Array
     reach: float
+    apart: Array
     values: CellValues
     kept: Kept
     facing: Array | None = None
@@ -96,8 +98,8 @@ def start(problem: Problem) -> State:
     inside = problem.cells.inside
     position = problem.cells.nominal.position[inside]
     size = float(np.linalg.norm(np.ptp(position, axis=0)))
-    distance = cKDTree(position).query(problem.sample, distance_upper_bound=size, workers=-1)[0]
-    typical = float(np.sort(distance)[int(_TYPICAL * (len(distance) - 1))])
+    apart = cKDTree(position).query(problem.sample, distance_upper_bound=size, workers=-1)[0]
+    typical = float(np.sort(apart)[int(_TYPICAL * (len(apart) - 1))])
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
                            "check the unit of the scan and align it first.")
@@ -107,5 +109,5 @@ def start(problem: Problem) -> State:
     faces = len(problem.part.faces)
     noise = np.full(faces, problem.statistics.noise)
     still = np.zeros((problem.lattices.count, 3))
-    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
+    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise), apart,
                  nothing(problem.distance.size, noise), keep(problem, still))

@@ -63,9 +63,9 @@ class Pattern:
 
     def from_vector(self, matrix: spmatrix) -> Array:
         """Values of a (3 controls, 3 controls) matrix on the pattern: (size, 3, 3)."""
-        coo = matrix.tocoo()
+        own = matrix.tobsr((3, 3))
         blocks = np.zeros((self.size, 3, 3))
-        blocks[self.position(coo.row // 3, coo.col // 3), coo.row % 3, coo.col % 3] = coo.data
+        blocks[self.position(np.repeat(np.arange(self.count), np.diff(own.indptr)), own.indices)] = own.data
         return blocks
 
     def matrix(self, blocks: Array) -> bsr_matrix:
