@@ -27,6 +27,7 @@ _UNIFORM_SAMPLES = 65
 _SAMPLES_PER_SPAN = 2
 _AROUND_LARGEST = 17
 
+
 @dataclass(frozen=True)
 class Structure:
     """What of a shape its deformation must keep.

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix, diags, vstack
+from scipy.sparse import bsr_matrix, csr_matrix, diags, vstack
 
 from ..splines import Array
 from .lattice import Index, Lattices
@@ -71,9 +71,9 @@ class Couplings:
     angle: Array
     thickness_rows: csr_matrix
     thickness_weight: Array
-    smooth: csr_matrix
-    dihedral: csr_matrix
-    dihedral_rows: csr_matrix
+    smooth: bsr_matrix
+    dihedral: bsr_matrix
+    dihedral_rows: bsr_matrix
     dihedral_weight: Array
     sharp: NDArray[np.bool_]
 
@@ -98,10 +98,9 @@ class Couplings:
         across = np.einsum("nx,nx->n", misfit, normal)
         return across, misfit - across[:, None] * normal
 
-    def thickness_matrix(self, normal: Array) -> csr_matrix:
+    def thickness_matrix(self, normal: Array) -> bsr_matrix:
         """Normal matrix of d_back − d_front along ``normal``, (pairs, 3): (3 controls, 3 controls)."""
-        across = _along(self.thickness_rows, normal)
-        return (across.T @ diags(self.thickness_weight) @ across).tocsr()
+        return _normal_matrix(_along(self.thickness_rows, normal), self.thickness_weight)
 
     def sheet_normals(self, control_points: Array) -> Array:
         """Current normals of the sheets at the pairs, from both skins: (pairs, 3)."""
@@ -145,8 +144,8 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     normal = _sheet_normals(pairs, still)
     angle = _angle(edges, still)
     sharp = np.abs(angle) > _SMOOTH_ANGLE
-    smooth, dihedral = ((rows.T @ diags(dihedral_weight[which]) @ rows).tocsr()
-                        for which in (~sharp, sharp) for rows in (dihedral_rows[which],))
+    smooth, dihedral = (_normal_matrix(dihedral_rows.tocsr()[which].tobsr((1, 3)), dihedral_weight[which])
+                        for which in (~sharp, sharp))
     return Couplings(scalar.tocsr(), shear, pairs, edges, normal, angle, thickness_rows, thickness_weight,
                      smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
@@ -177,12 +176,17 @@ def _sheet_normals(pairs: SheetPairs, control_points: Array) -> Array:
     return mean / np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
 
 
-def _along(rows: csr_matrix, direction: Array) -> csr_matrix:
+def _along(rows: csr_matrix, direction: Array) -> bsr_matrix:
     """Rows (n, controls) that hold for x, y and z, taken along directions (n, 3): (n, 3 controls)."""
     row = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
     values = rows.data[:, None] * direction[row]
-    columns = 3 * rows.indices[:, None] + np.arange(3)
-    return csr_matrix((values.ravel(), columns.ravel(), 3 * rows.indptr), shape=(rows.shape[0], 3 * rows.shape[1]))
+    return bsr_matrix((values[:, None], rows.indices, rows.indptr), shape=(rows.shape[0], 3 * rows.shape[1]))
+
+
+def _normal_matrix(rows: bsr_matrix, weight: Array) -> bsr_matrix:
+    """Σ weight rowᵀ row in 3 × 3 blocks, of rows (n, 3 controls) in blocks of three."""
+    weighted = rows.data * np.repeat(weight, np.diff(rows.indptr))[:, None, None]
+    return rows.T @ bsr_matrix((weighted, rows.indices, rows.indptr), shape=rows.shape)
 
 
 def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
@@ -227,7 +231,7 @@ def _angle(edges: EdgeSamples, control_points: Array) -> Array:
     return np.arctan2(sine, np.einsum("nx,nx->n", first, second))
 
 
-def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> csr_matrix:
+def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> bsr_matrix:
     """Change of `_angle` by the control points, to first order about the nominal shape: (samples, 3 controls).
 
     A face turns about the edge's direction t by n·∂d/∂m, with m = t × n the direction in the face across the edge.
@@ -242,7 +246,7 @@ def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> csr_matrix:
         slope = np.linalg.solve(metric, np.einsum("anx,nx->na", tangents, across)[:, :, None])[:, :, 0]
         derivative = np.einsum("na,anc->nc", slope, side.weights[1:])
         values = derivative[:, :, None] * normal[:, None, :]
-        columns = 3 * side.controls[:, :, None] + np.arange(3)
-        start = np.arange(len(side) + 1) * 48
-        sides.append(csr_matrix((values.ravel(), columns.ravel(), start), shape=(len(side), 3 * lattices.count)))
-    return (sides[0] - sides[1]).tocsr()
+        start = np.arange(len(side) + 1) * 16
+        sides.append(bsr_matrix((values.reshape(-1, 1, 3), side.controls.ravel(), start),
+                                shape=(len(side), 3 * lattices.count)))
+    return sides[0] - sides[1]
