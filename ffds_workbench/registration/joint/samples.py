@@ -38,12 +38,12 @@ class Samples:
 
     def displacement(self, control_points: Array) -> Array:
         """d at the places: (n, 3)."""
-        return np.einsum("nc,ncx->nx", self.weights[0], control_points[self.controls])
+        return np.asarray(np.matmul(self.weights[0, :, None], control_points[self.controls])[:, 0])
 
     def tangents(self, control_points: Array) -> Array:
         """Current S_u and S_v: (2, n, 3)."""
         gathered = control_points[self.controls]
-        return self.nominal[1:] + np.einsum("anc,ncx->anx", self.weights[1:], gathered)
+        return self.nominal[1:] + np.matmul(self.weights[1:, :, None], gathered)[:, :, 0]
 
     def normals(self, control_points: Array) -> Array:
         """Current unit normals out of the material: (n, 3)."""
