@@ -50,7 +50,7 @@ class Trust:
 
 
 SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
-            Stage(1, 1.2, 8, 0.03, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True),
+            Stage(1, 1.2, 8, 0.04, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True),
             Stage(1, 0.6, 4, 0.02, soft=True, all_points=True, body=True))
 
 
