@@ -2,6 +2,7 @@
 """The base of the commands: resources, when they are active, and refusals as one sentence."""
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Any
 
 import FreeCAD
@@ -12,7 +13,7 @@ from ..running import telling
 from ..selection import Chosen, chosen, scans_of
 
 
-class Command:
+class Command(ABC):
     """A command; subclasses set the names and define `active` and `run`."""
 
     NAME = MENU = TIP = HELP = KEYS = ""
@@ -35,9 +36,9 @@ class Command:
         """Whether selection and document allow it."""
         return FreeCAD.ActiveDocument is not None
 
+    @abstractmethod
     def run(self) -> None:
         """Do it."""
-        raise NotImplementedError
 
 
 def one_part(selected: Chosen) -> Any:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..splines import Array, SplineSurface
 from .bands import TWO_SIDED, edge_bands, normal_bands
+from .couplings import directions
 from .coverage import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
-from .lattice import Index
 from .misfit import misfit, nearest_spans
 from .posterior import covariance_blocks
 from .problem import Problem
@@ -82,7 +82,7 @@ def _edges(problem: Problem, state: State, covariance: Array, errors: Array, see
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
     flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
     spans = nearest_spans(problem, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
-    bands = edge_bands(problem, covariance, errors, samples, _directions(points, number), gap,
+    bands = edge_bands(problem, covariance, errors, samples, directions(points, number), gap,
                        off[spans].reshape(2, -1).max(axis=0))
     result = []
     for index, edge in enumerate(part.edges):
@@ -90,13 +90,6 @@ def _edges(problem: Problem, state: State, covariance: Array, errors: Array, see
         result.append(EdgeRegistration(edge.name, points[own], bands[own], flags[own], _most(flags[own]),
                                        _rms(bands[own])))
     return tuple(result)
-
-
-def _directions(points: Array, number: Index) -> Array:
-    after, before = np.roll(points, -1, axis=0), np.roll(points, 1, axis=0)
-    last, first = np.roll(number, -1) != number, np.roll(number, 1) != number
-    step = np.where(last[:, None], points, after) - np.where(first[:, None], points, before)
-    return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
 
 
 def _better(first: Flags, second: Flags) -> Flags:

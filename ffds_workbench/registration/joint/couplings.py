@@ -37,11 +37,8 @@ class EdgeSamples:
     direction: Array
 
     def along(self, place: Array) -> Array:
-        """Unit directions of the edges through places (n, 3) on them, by central differences."""
-        after, before = np.roll(place, -1, axis=0), np.roll(place, 1, axis=0)
-        last, first = np.roll(self.edge, -1) != self.edge, np.roll(self.edge, 1) != self.edge
-        step = np.where(last[:, None], place, after) - np.where(first[:, None], place, before)
-        return step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+        """Unit directions of the edges through places (n, 3) on them."""
+        return directions(place, self.edge)
 
 
 @dataclass(frozen=True)
@@ -122,6 +119,14 @@ class Couplings:
         gap = (self.pairs.front.nominal[0] + self.pairs.front.displacement(control_points)
                - self.pairs.back.nominal[0] - self.pairs.back.displacement(control_points))
         return np.einsum("nx,nx->n", gap, normal)
+
+
+def directions(place: Array, edge: Index) -> Array:
+    """Unit directions through places (n, 3) one after the other along edges (n,), by central differences: (n, 3)."""
+    after, before = np.roll(place, -1, axis=0), np.roll(place, 1, axis=0)
+    last, first = np.roll(edge, -1) != edge, np.roll(edge, 1) != edge
+    step = np.where(last[:, None], place, after) - np.where(first[:, None], place, before)
+    return np.asarray(step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12))
 
 
 def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix,

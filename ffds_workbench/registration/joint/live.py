@@ -35,7 +35,7 @@ class LiveJoint:
         some = np.random.default_rng(settings.seed).permutation(len(scan))[:_POINTS]
         self._problem = make_problem(part, scan[some], _coarse(settings), {})
         state = start(self._problem)
-        self._state = replace(state, facing=facing(self._problem, state)[0])
+        self._state = replace(state, facing=facing(self._problem, state.reach)[0])
         for stage in stages(settings.schedule, state.reach):
             if not stage.all_points:
                 self._state = judge(self._problem, self._state, stage)

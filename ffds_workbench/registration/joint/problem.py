@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
+from scipy.sparse import bsr_matrix, csr_matrix
+from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..splines import Array
@@ -82,6 +84,17 @@ class Problem:
         if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
             return known
         return Across(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
+
+    @cached_property
+    def size(self) -> float:
+        """Diagonal of the box around the nominal cells, in mm."""
+        return float(np.linalg.norm(np.ptp(self.cells.nominal.position[self.cells.inside], axis=0)))
+
+    @cached_property
+    def apart(self) -> Array:
+        """How far the points of the sample lie from the nominal part, in mm; infinite beyond its size: (n,)."""
+        tree = cKDTree(self.cells.nominal.position[self.cells.inside])
+        return np.asarray(tree.query(self.sample, distance_upper_bound=self.size, workers=-1)[0])
 
     @property
     def face_of_cell(self) -> Index:
@@ -161,8 +174,7 @@ def _positions(lattices: Lattices, cells: Places) -> Array:
     return total / np.bincount(controls, minlength=lattices.count)[:, None]
 
 
-def _nodes_of(matrix: csr_matrix) -> csr_matrix:
-    """Scalar pattern of a matrix with three rows and columns per control point."""
-    blocks = matrix.tobsr((3, 3))
+def _nodes_of(matrix: bsr_matrix) -> csr_matrix:
+    """Scalar pattern of a matrix of 3 × 3 blocks, one per pair of control points."""
     n = matrix.shape[0] // 3
-    return csr_matrix((np.ones(len(blocks.indices)), blocks.indices, blocks.indptr), shape=(n, n))
+    return csr_matrix((np.ones(len(matrix.indices)), matrix.indices, matrix.indptr), shape=(n, n))

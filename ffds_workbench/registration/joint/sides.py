@@ -53,20 +53,19 @@ _NEAR = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
 
-def facing(problem: Problem, state: State) -> list[Array | None]:
+def facing(problem: Problem, reach: float) -> list[Array | None]:
     """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
 
-    ``state`` is that of the nominal part. Two of them where a large piece is in doubt, the nearer side first; None
-    where no sheet is so thin that its sides could be mixed up, or the noise hides them.
+    ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
+    nearer side first; None where no sheet is so thin that its sides could be mixed up, or the noise hides them.
     """
-    reach = state.reach
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
     if not sheets or min(sheets) > _THICK * reach or problem.statistics.noise > min(sheets) / _ROUGH:
         return [None]
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
-    near = state.apart < reach
+    near = problem.apart < reach
     if near.sum() < _FEWEST:
         return [None]
     generator = np.random.default_rng(problem.settings.seed)

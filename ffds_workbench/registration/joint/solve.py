@@ -67,7 +67,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = start(problem)
     steps = stages(settings.schedule, state.reach)
     report("joint solve", 0.0)
-    sides = facing(problem, state)
+    sides = facing(problem, state.reach)
     state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward), len(sides) > 1)
                             for outward in sides])
     for number, stage in enumerate(steps):

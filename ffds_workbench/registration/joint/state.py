@@ -60,7 +60,6 @@ class State:
     control_points : (controls, 3) displacement in mm
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
-    apart : (n,) how far the points of the sample lie from the nominal part, in mm
     values : of the last iteration
     kept : for the next one
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
@@ -73,7 +72,6 @@ class State:
     control_points: Array
     noise: Array
     reach: float
-    apart: Array
     values: CellValues
     kept: Kept
     facing: Array | None = None
@@ -95,19 +93,15 @@ def start(problem: Problem) -> State:
     ------
     RefusedError : the scan is farther from the part than the part is large
     """
-    inside = problem.cells.inside
-    position = problem.cells.nominal.position[inside]
-    size = float(np.linalg.norm(np.ptp(position, axis=0)))
-    apart = cKDTree(position).query(problem.sample, distance_upper_bound=size, workers=-1)[0]
-    typical = float(np.sort(apart)[int(_TYPICAL * (len(apart) - 1))])
+    typical = float(np.sort(problem.apart)[int(_TYPICAL * (len(problem.apart) - 1))])
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
                            "check the unit of the scan and align it first.")
     if typical > _LEAST_REACH / _REACH:
-        back = cKDTree(problem.sample).query(position, workers=-1)[0]
+        back = cKDTree(problem.sample).query(problem.cells.nominal.position[problem.cells.inside], workers=-1)[0]
         typical = min(typical, float(np.quantile(back, _SEEN)))
     faces = len(problem.part.faces)
     noise = np.full(faces, problem.statistics.noise)
     still = np.zeros((problem.lattices.count, 3))
-    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise), apart,
+    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
                  nothing(problem.distance.size, noise), keep(problem, still))

@@ -27,7 +27,6 @@ def refuse_bad(problem: Problem, state: State) -> None:
     """Raise RefusedError where the result cannot be honest."""
     inside = problem.cells.inside
     position = problem.cells.nominal.position[inside]
-    size = float(np.linalg.norm(np.ptp(position, axis=0)))
     jet = problem.cells.displaced(problem.lattices, state.control_points, 3)
     moved = float(np.linalg.norm(jet.position[inside] - position, axis=1).max())
     used = int(state.values.count.sum())
@@ -39,8 +38,8 @@ def refuse_bad(problem: Problem, state: State) -> None:
     if free < _FEWEST_USED:
         raise RefusedError(f"Only {free} scan points lie near faces that may move: freeze fewer faces, or scan the "
                            "free ones.")
-    if not np.isfinite(moved) or moved > size:
-        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({size:.0f} mm): "
+    if not np.isfinite(moved) or moved > problem.size:
+        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({problem.size:.0f} mm): "
                            "align the scan first.")
     if state.last_step > _NOT_CONVERGED:
         raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "

@@ -61,11 +61,10 @@ class Pattern:
         position = self.position(coo.row.astype(np.intp), coo.col.astype(np.intp))
         return np.bincount(position, weights=coo.data, minlength=self.size).astype(float)
 
-    def from_vector(self, matrix: spmatrix) -> Array:
-        """Values of a (3 controls, 3 controls) matrix on the pattern: (size, 3, 3)."""
-        own = matrix.tobsr((3, 3))
+    def from_vector(self, matrix: bsr_matrix) -> Array:
+        """Values of a (3 controls, 3 controls) matrix of 3 × 3 blocks on the pattern: (size, 3, 3)."""
         blocks = np.zeros((self.size, 3, 3))
-        blocks[self.position(np.repeat(np.arange(self.count), np.diff(own.indptr)), own.indices)] = own.data
+        blocks[self.position(np.repeat(np.arange(self.count), np.diff(matrix.indptr)), matrix.indices)] = matrix.data
         return blocks
 
     def matrix(self, blocks: Array) -> bsr_matrix:
