@@ -17,8 +17,11 @@ class PointCloud:
     points : (n, 3) float64, finite
     dropped : rows of the files that were not finite
     unit : the unit that the files were read in: "mm", "m", "cm" or "in"
+    normals : (n, 3) unit vectors that the files hold, zero for points without; None if they hold none. Most
+        point to the sensor, but that is not checked
     """
 
     points: NDArray[np.float64]
     dropped: int = 0
     unit: str = "mm"
+    normals: NDArray[np.float64] | None = None

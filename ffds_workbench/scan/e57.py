@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""ASTM E57 (ASTM E2807): the points of all its scans, placed by their poses, in double precision.
+"""ASTM E57 (ASTM E2807): the points and normals of all its scans, placed by their poses, in double precision.
 
 Read here and not with FreeCAD's importer, which leaves the poses out and rounds to single precision: several scans
 would fall onto each other. The file is text (XML) that points into binary sections; every page of the file ends with a
@@ -26,6 +26,7 @@ _DATA_PACKET, _VECTOR_SECTION = 1, 1
 _NAMESPACE = "{http://www.astm.org/COMMIT/E57/2010-e57-v1.0}"
 _CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
 _SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
+_NORMALS = tuple(f"{{http://www.libe57.org/E57_NOR_surface_normals.txt}}normal{axis}" for axis in "XYZ")
 _BITS_AT_ONCE = 1 << 25
 
 
@@ -76,7 +77,7 @@ def _unpack(data: NDArray[np.uint8], bits: int, count: int) -> Array:
 
 
 def read(path: Path) -> Array:
-    """The points of all scans in the file, (n, 3), as the file holds them; invalid ones are NaN.
+    """The points of all scans in the file and their normals, (n, 6): invalid points are NaN, missing normals zero.
 
     Raises
     ------
@@ -94,7 +95,7 @@ def read(path: Path) -> Array:
         scans = [_scan(content, scan) for scan in root.iterfind(f"{_NAMESPACE}data3D/{_NAMESPACE}vectorChild")]
     except (ValueError, KeyError, TypeError, struct.error, ElementTree.ParseError) as error:
         raise InputError(f"The scan {path} is damaged or cut off: its E57 sections cannot be read.") from error
-    return np.concatenate([np.empty((0, 3)), *scans])
+    return np.concatenate([np.empty((0, 6)), *scans])
 
 
 class _Content:
@@ -115,15 +116,15 @@ class _Content:
 
 
 def _scan(content: _Content, scan: ElementTree.Element) -> Array:
-    """One scan's points in the common frame of the file."""
+    """One scan's points and normals in the common frame of the file."""
     points = scan.find(f"{_NAMESPACE}points")
     prototype = None if points is None else points.find(f"{_NAMESPACE}prototype")
     if points is None or prototype is None:
-        return np.empty((0, 3))
+        return np.empty((0, 6))
     fields = [_field(item) for item in prototype]
     count = int(points.get("recordCount", "0"))
     streams = _streams(content, int(points.get("fileOffset", "0")), fields, count)
-    wanted = {*_CARTESIAN, *_SPHERICAL, "cartesianInvalidState", "sphericalInvalidState"}
+    wanted = {*_CARTESIAN, *_SPHERICAL, *_NORMALS, "cartesianInvalidState", "sphericalInvalidState"}
     columns = {field.name: field.decode(stream, count) for field, stream in zip(fields, streams, strict=True)
                if field.name in wanted}
     if set(_CARTESIAN) <= set(columns):
@@ -132,7 +133,10 @@ def _scan(content: _Content, scan: ElementTree.Element) -> Array:
         local, state = _from_spherical(*(columns[name] for name in _SPHERICAL)), "sphericalInvalidState"
     if state in columns:
         local[columns[state] != 0] = np.nan
-    return _placed(local, scan.find(f"{_NAMESPACE}pose"))
+    normals = (np.stack([columns[name] for name in _NORMALS], axis=1) if set(_NORMALS) <= set(columns)
+               else np.zeros((count, 3)))
+    rotation, translation = _motion(scan.find(f"{_NAMESPACE}pose"))
+    return np.hstack([local @ rotation.T + translation, normals @ rotation.T])
 
 
 def _field(item: ElementTree.Element) -> _Field:
@@ -173,15 +177,15 @@ def _from_spherical(distance: Array, azimuth: Array, elevation: Array) -> Array:
     return np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), distance * np.sin(elevation)], axis=1)
 
 
-def _placed(points: Array, pose: ElementTree.Element | None) -> Array:
-    """Points turned by the pose's unit quaternion and moved by its translation."""
+def _motion(pose: ElementTree.Element | None) -> tuple[Array, Array]:
+    """Rotation (3, 3) by the pose's unit quaternion, and its translation (3,)."""
     if pose is None:
-        return points
+        return np.eye(3), np.zeros(3)
     w, x, y, z = (_number(pose, "rotation", axis, 1.0 if axis == "w" else 0.0) for axis in "wxyz")
     rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                          [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
-    return points @ rotation.T + [_number(pose, "translation", axis, 0.0) for axis in "xyz"]
+    return rotation, np.array([_number(pose, "translation", axis, 0.0) for axis in "xyz"])
 
 
 def _number(pose: ElementTree.Element, part: str, axis: str, default: float) -> float:

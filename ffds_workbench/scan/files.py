@@ -2,7 +2,8 @@
 """Scan files of every supported format, read into one point cloud in mm.
 
 Each format has a module of its own whose ``read(path)`` returns the coordinates as the file holds them, (n, 3)
-float64; units, non-finite rows and what makes a file useless are dealt with here, once.
+float64, or (n, 6) with its normals after them; units, non-finite rows and what makes a file useless are dealt with
+here, once.
 """
 from __future__ import annotations
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from . import e57, pcd, ply, stl, text
 from .cloud import PointCloud
+from .normals import fused, unit_normals
 from .units import MILLIMETRES
 
 _READERS: dict[str, Callable[[Path], NDArray[np.float64]]] = {
@@ -43,7 +45,8 @@ def read(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointClo
         raise InputError("No scan file was named.")
     clouds = [_read_one(Path(path)) for path in files]
     points = np.concatenate([cloud.points for cloud in clouds]) * MILLIMETRES[unit]
-    return PointCloud(points, sum(cloud.dropped for cloud in clouds), unit)
+    normals = fused([cloud.normals for cloud in clouds], [len(cloud.points) for cloud in clouds])
+    return PointCloud(points, sum(cloud.dropped for cloud in clouds), unit, normals)
 
 
 def _read_one(path: Path) -> PointCloud:
@@ -65,8 +68,8 @@ def _read_one(path: Path) -> PointCloud:
 
 def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
     """Finite points only; a file with no two different points is refused."""
-    finite = np.isfinite(rows).all(axis=1)
-    points = np.ascontiguousarray(rows[finite], dtype=np.float64)
+    finite = np.isfinite(rows[:, :3]).all(axis=1)
+    points = np.ascontiguousarray(rows[finite, :3], dtype=np.float64)
     dropped = int(len(rows) - len(points))
     if len(points) == 0:
         lost = f" (its {dropped} rows are not finite numbers)" if dropped else ""
@@ -75,4 +78,4 @@ def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
         raise InputError(f"The scan {path} holds a single point: a scan needs many.")
     if not np.ptp(points, axis=0).any():
         raise InputError(f"The scan {path} is no scan: all its {len(points)} points are the same.")
-    return PointCloud(points, dropped)
+    return PointCloud(points, dropped, normals=unit_normals(rows[finite, 3:]) if rows.shape[1] > 3 else None)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from . import normals
 
 _LONGEST_HEADER = 65536
 _AXES = ("x", "y", "z")
@@ -32,12 +33,14 @@ class _Header:
         return np.dtype([(str(place), kind, (count,)) for place, (kind, count)
                          in enumerate(zip(self.kinds, self.counts, strict=True))])
 
-    def place(self, axis: str) -> int:
-        return self.names.index(axis)
+    @property
+    def places(self) -> list[int]:
+        """Of x, y and z among the fields, and of the normal's components where there are any."""
+        return [*map(self.names.index, _AXES), *normals.columns(self.names)]
 
 
 def read(path: Path) -> NDArray[np.float64]:
-    """The points as the file holds them, (n, 3), with the NaN rows of organised clouds.
+    """The points as the file holds them, (n, 3), or (n, 6) with normals; with the NaN rows of organised clouds.
 
     Raises
     ------
@@ -54,7 +57,7 @@ def read(path: Path) -> NDArray[np.float64]:
         if found < header.points:
             raise _truncated(path, header.points, found)
         rows = np.frombuffer(data, header.dtype, header.points, header.start)
-        return np.stack([rows[str(header.place(axis))][:, 0].astype(np.float64) for axis in _AXES], axis=1)
+        return np.stack([rows[str(place)][:, 0].astype(np.float64) for place in header.places], axis=1)
     return _compressed(path, header)
 
 
@@ -89,7 +92,7 @@ def _ascii(path: Path, data: bytes, header: _Header) -> NDArray[np.float64]:
     if len(lines) < header.points:
         raise _truncated(path, header.points, len(lines))
     first = np.concatenate([[0], np.cumsum(header.counts)])
-    columns = [int(first[header.place(axis)]) for axis in _AXES]
+    columns = [int(first[place]) for place in header.places]
     try:
         return np.loadtxt(lines[: header.points], usecols=columns, ndmin=2, comments=None)
     except ValueError as error:
@@ -103,7 +106,8 @@ def _compressed(path: Path, header: _Header) -> NDArray[np.float64]:
         cloud = open3d.t.io.read_point_cloud(str(path), format="pcd")
     if "positions" not in cloud.point or len(cloud.point["positions"]) != header.points:
         raise InputError(f"The scan {path} is damaged or cut off: its compressed points cannot be unpacked.")
-    return cloud.point["positions"].numpy().astype(np.float64)
+    wanted = ["positions", "normals"] if "normals" in cloud.point else ["positions"]
+    return np.hstack([cloud.point[name].numpy().astype(np.float64) for name in wanted])
 
 
 def _truncated(path: Path, promised: int, found: int) -> InputError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Stanford PLY: the vertices, in the precision of the file, whatever else the file holds.
+"""Stanford PLY: the vertices and their normals, in the precision of the file, whatever else the file holds.
 
 Read here and not with open3d because open3d fills the missing rows of a truncated file with numbers of its own.
 """
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from . import normals
 
 _TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
           "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
@@ -32,7 +33,7 @@ class _Element:
 
 
 def read(path: Path) -> NDArray[np.float64]:
-    """The vertices as the file holds them, (n, 3); extra properties and other elements are skipped.
+    """The vertices as the file holds them, (n, 3), or (n, 6) with normals; the rest of the file is skipped.
 
     Raises
     ------
@@ -52,8 +53,9 @@ def read(path: Path) -> NDArray[np.float64]:
         raise InputError(f"The scan {path} is damaged: its vertices have no x, y and z.")
     if element.has_list or len(set(names)) < len(names) or any(other.has_list for other in before):
         raise InputError(f"The scan {path} has vertices of an unusual layout: save it as plain points.")
+    columns = [*map(names.index, "xyz"), *normals.columns(names)]
     if encoding == "ascii":
-        return _ascii(path, data[start:], element, sum(other.count for other in before), names)
+        return _ascii(path, data[start:], element, sum(other.count for other in before), columns)
     order = _ORDER[encoding]
     start += sum(other.count * other.dtype(order).itemsize for other in before)
     dtype = element.dtype(order)
@@ -61,7 +63,7 @@ def read(path: Path) -> NDArray[np.float64]:
     if found < element.count:
         raise _truncated(path, element.count, max(found, 0))
     vertices = np.frombuffer(data, dtype, element.count, start)
-    return np.stack([vertices[axis].astype(np.float64) for axis in "xyz"], axis=1)
+    return np.stack([vertices[names[column]].astype(np.float64) for column in columns], axis=1)
 
 
 def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
@@ -90,16 +92,16 @@ def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
     return encoding, elements, newline + 1
 
 
-def _ascii(path: Path, data: bytes, element: _Element, skip: int, names: list[str]) -> NDArray[np.float64]:
+def _ascii(path: Path, data: bytes, element: _Element, skip: int, columns: list[int]) -> NDArray[np.float64]:
     lines = [line for line in data.decode("latin-1").splitlines() if line.strip()][skip : skip + element.count]
     if len(lines) < element.count:
         raise _truncated(path, element.count, len(lines))
     if not lines:
         return np.empty((0, 3))
-    if len(lines[-1].split()) < len(names):
+    if len(lines[-1].split()) < len(element.properties):
         raise _truncated(path, element.count, len(lines) - 1)
     try:
-        return np.loadtxt(lines, usecols=[names.index(axis) for axis in "xyz"], ndmin=2, comments=None)
+        return np.loadtxt(lines, usecols=columns, ndmin=2, comments=None)
     except ValueError as error:
         raise InputError(f"The scan {path} is damaged: a vertex is not made of numbers.") from error
 

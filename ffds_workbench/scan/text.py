@@ -3,7 +3,8 @@
 
 What is recognised: comment lines (``#``, ``//``, ``%``, ``!``), a header that names the columns, a first line with the
 number of points (pts), separators blank, tab, comma and semicolon, a decimal comma where the separator is not a comma,
-and missing values, which count as rows that are not finite.
+and missing values, which count as rows that are not finite. Normals are the columns named so or, where none are named,
+the fourth to sixth; whether those are normals or colours, their numbers tell.
 """
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from . import normals
 
 _COMMENTS = ("#", "//", "%", "!")
 _MISSING = {"", "-", "--", "nan", "null", "none", "n/a", "na", "nodata"}
@@ -22,7 +24,7 @@ _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?$")
 
 
 def read(path: Path) -> NDArray[np.float64]:
-    """The first three columns, or those named x, y and z, as the file holds them, (n, 3).
+    """The first three columns, or those named x, y and z, as the file holds them, (n, 3), or (n, 6) with normals.
 
     Raises
     ------
@@ -38,10 +40,10 @@ def read(path: Path) -> NDArray[np.float64]:
         raise InputError(f"The scan {path} is no text of points: no line starts with a number.")
     lines = [line for _, line in numbered]
     separator, decimal_comma = _layout(lines)
-    columns = _columns(header, separator)
+    columns, of_normals = _columns(header, separator, lines[0])
     if decimal_comma:
         lines = [line.replace(",", ".") for line in lines]
-    rows = _parse(path, lines, [number for number, _ in numbered], separator, columns)
+    rows = _parse(path, lines, [number for number, _ in numbered], separator, columns, of_normals)
     if promised is not None and len(rows) < promised:
         raise InputError(f"The scan {path} is cut off: its first line promises {promised} points, "
                          f"{len(rows)} are there.")
@@ -103,19 +105,22 @@ def _layout(lines: list[str]) -> tuple[str | None, bool]:
     return ",", False
 
 
-def _columns(header: str, separator: str | None) -> list[int]:
+def _columns(header: str, separator: str | None, first: str) -> tuple[list[int], list[int]]:
+    """Columns of x, y and z and those that may hold normals, by their names or by how many the first line has."""
     names = _names(header)
     if {"x", "y", "z"} <= set(names):
-        return [names.index(axis) for axis in "xyz"]
-    return [0, 1, 2]
+        return [names.index(axis) for axis in "xyz"], normals.columns(names)
+    return [0, 1, 2], [3, 4, 5] if len(first.split(separator)) >= 6 else []
 
 
 def _parse(path: Path, lines: list[str], numbers: list[int], separator: str | None,
-           columns: list[int]) -> NDArray[np.float64]:
-    try:
-        return np.loadtxt(lines, delimiter=separator, usecols=columns, ndmin=2, comments=None)
-    except ValueError:
-        return _parse_slowly(path, lines, numbers, separator, columns)
+           columns: list[int], of_normals: list[int]) -> NDArray[np.float64]:
+    for wanted in ([*columns, *of_normals], columns):
+        try:
+            return np.loadtxt(lines, delimiter=separator, usecols=wanted, ndmin=2, comments=None)
+        except ValueError:
+            continue
+    return _parse_slowly(path, lines, numbers, separator, columns)
 
 
 def _parse_slowly(path: Path, lines: list[str], numbers: list[int], separator: str | None,

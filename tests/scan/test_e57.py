@@ -54,9 +54,10 @@ def write_e57(path: Path, scans: list[tuple[list[bytes], int, str, str]]) -> Non
                 '</prototype><codecs type="Vector" allowHeterogeneousChildren="1"/></points></vectorChild>')
         content += struct.pack("<B7xQQQ", 1, 32 + len(packets), _physical(len(content) + 32), 0) + packets
     text = ('<?xml version="1.0" encoding="UTF-8"?><e57Root type="Structure" '
-            'xmlns="http://www.astm.org/COMMIT/E57/2010-e57-v1.0"><formatName type="String">ASTM E57 3D Imaging Data '
-            'File</formatName><guid type="String">a</guid><versionMajor type="Integer">1</versionMajor><versionMinor '
-            'type="Integer">0</versionMinor><data3D type="Vector" allowHeterogeneousChildren="1">'
+            'xmlns="http://www.astm.org/COMMIT/E57/2010-e57-v1.0" '
+            'xmlns:nor="http://www.libe57.org/E57_NOR_surface_normals.txt"><formatName type="String">ASTM E57 '
+            '3D Imaging Data File</formatName><guid type="String">a</guid>'
+            '<versionMajor type="Integer">1</versionMajor><versionMinor type="Integer">0</versionMinor><data3D type="Vector" allowHeterogeneousChildren="1">'
             f'{xml}</data3D></e57Root>').encode()
     pages = -(-(len(content) + len(text)) // PAYLOAD)
     header = struct.pack("<8s2I4Q", b"ASTM-E57", 1, 0, pages * PAGE, _physical(len(content)), len(text), PAGE)
@@ -68,6 +69,12 @@ def write_e57(path: Path, scans: list[tuple[list[bytes], int, str, str]]) -> Non
 def doubles(points: np.ndarray = POINTS, pose: str = NO_POSE) -> tuple[list[bytes], int, str, str]:
     fields = "".join(f'<cartesian{axis} type="Float"/>' for axis in "XYZ")
     return [points[:, axis].astype("<f8").tobytes() for axis in range(3)], len(points), fields, pose
+
+
+def with_normals(points: np.ndarray, normals: np.ndarray, pose: str) -> tuple[list[bytes], int, str, str]:
+    streams, count, fields, _ = doubles(points)
+    fields += "".join(f'<nor:normal{axis} type="Float" precision="single"/>' for axis in "XYZ")
+    return streams + [normals[:, axis].astype("<f4").tobytes() for axis in range(3)], count, fields, pose
 
 
 def scaled_integers() -> tuple[list[bytes], int, str, str]:
@@ -114,6 +121,17 @@ def test_every_scan_is_placed_by_its_pose(tmp_path):
     x, y, z = POINTS[:7].T
     placed = np.stack([-0.28 * x - 0.96 * y + 1e3, 0.96 * x - 0.28 * y + 2e3, z - 3], axis=1)
     np.testing.assert_allclose(cloud.points[len(POINTS) :], placed * 1000, atol=1e-9 * 1e6)
+
+
+def test_normals_are_turned_by_the_pose(tmp_path):
+    normals = POINTS[:9] / np.linalg.norm(POINTS[:9], axis=1, keepdims=True)
+    write_e57(tmp_path / "scan.e57", [doubles(POINTS[9:12]), with_normals(POINTS[:9], normals, POSE)])
+    cloud = files.read(tmp_path / "scan.e57", "m")
+    x, y, z = normals.T
+    # Single precision, half a step at 1 is 6e-8.
+    np.testing.assert_allclose(cloud.normals[3:], np.stack([-0.28 * x - 0.96 * y, 0.96 * x - 0.28 * y, z], axis=1),
+                               atol=2e-7)
+    assert not cloud.normals[:3].any()
 
 
 @pytest.mark.parametrize("scan", [doubles(), scaled_integers()], ids=["doubles", "scaled integers"])
