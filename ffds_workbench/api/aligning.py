@@ -100,7 +100,8 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     points = found.scale * cloud.points @ pose[:3, :3].T + pose[:3, 3]
     unit = found.unit if found.scale != 1.0 and found.unit in MILLIMETRES else cloud.unit
     report = {**_record(found), "timing": watch.times()}
-    return AlignedScan(PointCloud(points, cloud.dropped, unit), found, report)
+    normals = None if cloud.normals is None else cloud.normals @ pose[:3, :3].T
+    return AlignedScan(PointCloud(points, cloud.dropped, unit, normals), found, report)
 
 
 def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,
@@ -114,7 +115,7 @@ def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | No
     """
     outputs = destinations((out, pose), inputs)
     with replacing(*outputs.values()) as temporary:
-        write_ply(temporary[0], aligned.scan.points)
+        write_ply(temporary[0], aligned.scan.points, aligned.scan.normals)
         if pose is not None:
             record.write(aligned.report, temporary[1])
 

@@ -60,7 +60,8 @@ def all_together(part: Workpiece, cloud: PointCloud, freeze: Collection[str], is
     with watch.stage("register", "Registering all faces together"):
         found = register_joint(joint_part(part, freeze), cloud.points,
                                replace(tuning.joint(), isometry=isometry, sensor=sensor),
-                               lambda stage, share: watch.tell(f"Registering all faces together: {stage}"))
+                               lambda stage, share: watch.tell(f"Registering all faces together: {stage}"),
+                               cloud.normals)
     with watch.stage("rebuild", "Closing the edges"):
         moving = {index: displacement for index, displacement in enumerate(found.displacements)
                   if part.faces[index].name not in freeze}
@@ -125,7 +126,7 @@ def _register_face(part: Workpiece, index: int, cloud: PointCloud, method: str, 
 def _whole(part: Workpiece, cloud: PointCloud, tuning: Tuning) -> JointRegistration | None:
     """All faces together, or None where that gives no answer."""
     try:
-        return register_joint(joint_part(part, ()), cloud.points, tuning.joint())
+        return register_joint(joint_part(part, ()), cloud.points, tuning.joint(), scan_normals=cloud.normals)
     except RefusedError:
         return None
 

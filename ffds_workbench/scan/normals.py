@@ -11,8 +11,8 @@ Array = NDArray[np.float64]
 
 _NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"))
 _UNIT, _NEARLY_ALL = 1e-2, 0.95
-"""Rows are of unit length within the first. Where no more than the second of those that are not zero are, they are colours
-or something else."""
+"""Rows are of unit length within the first. Where no more than the second of those that are not zero are, they are
+colours or something else."""
 
 
 def columns(names: Sequence[str]) -> list[int]:

@@ -1546,8 +1546,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
     </message>
     <message>
-      <source>The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as well, or align the scan to less than half the sheet's thickness first.</source>
-      <translation>Der Scan zeigt nur eine Seite eines dünnen Blechs, und nichts verrät, welche: Scannen Sie auch etwas vom Rand, oder richten Sie den Scan zuerst auf weniger als die halbe Blechdicke genau aus.</translation>
+      <source>The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as well, use a scan with normals, or align it to less than half the sheet's thickness first.</source>
+      <translation>Der Scan zeigt nur eine Seite eines dünnen Blechs, und nichts verrät, welche: Scannen Sie auch etwas vom Rand, nehmen Sie einen Scan mit Normalen, oder richten Sie ihn zuerst auf weniger als die halbe Blechdicke genau aus.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>

@@ -57,7 +57,8 @@ def write_e57(path: Path, scans: list[tuple[list[bytes], int, str, str]]) -> Non
             'xmlns="http://www.astm.org/COMMIT/E57/2010-e57-v1.0" '
             'xmlns:nor="http://www.libe57.org/E57_NOR_surface_normals.txt"><formatName type="String">ASTM E57 '
             '3D Imaging Data File</formatName><guid type="String">a</guid>'
-            '<versionMajor type="Integer">1</versionMajor><versionMinor type="Integer">0</versionMinor><data3D type="Vector" allowHeterogeneousChildren="1">'
+            '<versionMajor type="Integer">1</versionMajor><versionMinor type="Integer">0</versionMinor>'
+            '<data3D type="Vector" allowHeterogeneousChildren="1">'
             f'{xml}</data3D></e57Root>').encode()
     pages = -(-(len(content) + len(text)) // PAYLOAD)
     header = struct.pack("<8s2I4Q", b"ASTM-E57", 1, 0, pages * PAGE, _physical(len(content)), len(text), PAGE)

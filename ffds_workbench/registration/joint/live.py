@@ -24,18 +24,20 @@ class LiveJoint:
 
     Parameters
     ----------
-    part, scan, settings : as in `register_joint`; the settings are where it starts from
+    part, scan, settings, scan_normals : as in `register_joint`; the settings are where it starts from
 
     Raises
     ------
     RefusedError : as `register_joint` does
     """
 
-    def __init__(self, part: JointPart, scan: Array, settings: JointSettings) -> None:
+    def __init__(self, part: JointPart, scan: Array, settings: JointSettings,
+                 scan_normals: Array | None = None) -> None:
         some = np.random.default_rng(settings.seed).permutation(len(scan))[:_POINTS]
-        self._problem = make_problem(part, scan[some], _coarse(settings), {})
+        self._problem = make_problem(part, scan[some], _coarse(settings), {},
+                                     None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
-        self._state = replace(state, facing=facing(self._problem, state.reach)[0])
+        self._state = replace(state, facing=facing(self._problem, state.reach)[0][0])
         for stage in stages(settings.schedule, state.reach):
             if not stage.all_points:
                 self._state = judge(self._problem, self._state, stage)

@@ -52,6 +52,7 @@ class Problem:
     Attributes
     ----------
     scan, sample : all scan points and a random sample of them, (n, 3) in mm
+    sample_normals : (n, 3) those that the scan brings for the sample, zero where it has none; None without any
     statistics : density and noise of the scan
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
@@ -77,6 +78,7 @@ class Problem:
     constant: Array
     sides: EdgeSides
     margin: Array
+    sample_normals: Array | None = None
 
     def across(self, control_points: Array, known: Across | None = None) -> Across:
         """Rows of the thickness along the normals that the sheets have with these control points, or hardly differ."""
@@ -117,7 +119,8 @@ class Problem:
         return weight, min(_WALL * weight, self.settings.isometry_weight_walls)
 
 
-def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int]) -> Problem:
+def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int],
+                 scan_normals: Array | None = None) -> Problem:
     """Lattices, rasters and constant rows of a part for a scan; ``finer`` divides the spans of some faces.
 
     Raises
@@ -149,7 +152,8 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
                    edge_sides(couplings.edges, lattices, cells, distance),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)))
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
+                   None if scan_normals is None else scan_normals[pick])
 
 
 def _same_for_all(values: Array) -> Array:

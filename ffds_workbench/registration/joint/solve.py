@@ -45,7 +45,7 @@ _SOFTER = 0.03
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
-                   progress: Progress | None = None) -> JointRegistration:
+                   progress: Progress | None = None, scan_normals: Array | None = None) -> JointRegistration:
     """Register all faces of a part to a scan at once.
 
     Parameters
@@ -54,6 +54,8 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     scan : (n, 3) points in mm, in the frame of the part
     settings : weights and schedule; the defaults suit sheet parts of 50–150 mm
     progress : called as ``progress("stage", fraction)``
+    scan_normals : (n, 3) unit normals that the scan brings, zero where it has none; they tell the skins of thin sheets
+        apart, and are left aside where they contradict each other or the part
 
     Raises
     ------
@@ -63,13 +65,13 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     """
     settings = settings or JointSettings()
     report = progress or (lambda stage, share: None)
-    problem = make_problem(part, scan, settings, {})
+    problem = make_problem(part, scan, settings, {}, scan_normals)
     state = start(problem)
     steps = stages(settings.schedule, state.reach)
     report("joint solve", 0.0)
-    sides = facing(problem, state.reach)
+    sides, told = facing(problem, state.reach)
     state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward), len(sides) > 1)
-                            for outward in sides])
+                            for outward in sides], told)
     for number, stage in enumerate(steps):
         if stage.soft:
             report("joint solve", number / len(steps))
