@@ -96,12 +96,9 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     if found.verdict == FAILED:
         raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "
                            f"part, or leave other objects out.")
-    pose = found.T_model_scan
-    points = found.scale * cloud.points @ pose[:3, :3].T + pose[:3, 3]
     unit = found.unit if found.scale != 1.0 and found.unit in MILLIMETRES else cloud.unit
     report = {**_record(found), "timing": watch.times()}
-    normals = None if cloud.normals is None else cloud.normals @ pose[:3, :3].T
-    return AlignedScan(PointCloud(points, cloud.dropped, unit, normals), found, report)
+    return AlignedScan(replace(cloud.moved(found.T_model_scan, found.scale), unit=unit), found, report)
 
 
 def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,

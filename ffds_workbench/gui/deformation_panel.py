@@ -139,7 +139,7 @@ class DeformationPanel:
         settings = self.form.settings(self._faces)
         if self._read is None or self._read[0] != (self._source, scan):
             job = make_job(self._source, scan, settings)
-            self._read = ((self._source, scan), job.source, job.points)
+            self._read = ((self._source, scan), job.source, job.scan)
         return Job(self._read[1], self._read[2], settings)
 
     def _preview(self) -> None:

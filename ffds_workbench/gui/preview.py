@@ -25,6 +25,7 @@ from ..registration.result import FaceRegistration
 from ..registration.robust import register_robust
 from ..registration.splines import DEGREE, SplineSurface
 from ..report.stopwatch import Progress
+from ..scan.cloud import PointCloud
 from .face_on_scan import Array, Deviations, FaceOnScan
 from .translating import tr
 from .whole_preview import WholePreview
@@ -69,12 +70,12 @@ class Preview:
     Parameters
     ----------
     shape : the nominal part in its own frame
-    points : the scan in the same frame, (n, 3) in mm
+    scan : in the same frame
     """
 
-    def __init__(self, shape: Part.Shape, points: Array) -> None:
+    def __init__(self, shape: Part.Shape, scan: PointCloud) -> None:
         self._part = workpiece.read(shape)
-        self._points = points
+        self._scan, self._points = scan, scan.points
         self._faces: dict[str, FaceOnScan] = {}
         self._sizes: dict[str, tuple[int, int]] = {}
         self._whole: WholePreview | None = None
@@ -95,7 +96,7 @@ class Preview:
 
     def _whole_patches(self, settings: Settings, coarse: bool, progress: Progress) -> list[Patch]:
         if self._whole is None:
-            self._whole = WholePreview(self._part, self._points)
+            self._whole = WholePreview(self._part, self._scan)
         found = self._whole.step(settings) if coarse else self._whole.solve(settings, progress)
         return [_patch(face, deviations, displacement, coverage, False)
                 for face, deviations, displacement, coverage in found]

@@ -42,8 +42,8 @@ class PreviewRunner(QtCore.QObject):
 
     def preview_of(self, job: Job) -> Preview:
         """The preview of a job's part and scan, kept as long as they stay the same."""
-        if self._preview is None or self._of is None or self._of[0] is not job.source or self._of[1] is not job.points:
-            self._of, self._preview = (job.source, job.points), Preview(job.source.model.shape, job.points)
+        if self._preview is None or self._of is None or self._of[0] is not job.source or self._of[1] is not job.scan:
+            self._of, self._preview = (job.source, job.scan), Preview(job.source.model.shape, job.scan)
         return self._preview
 
     def ask(self, job: Job) -> None:

@@ -15,6 +15,7 @@ from ..registration.coverage import covered_share
 from ..registration.joint import JointSettings, LiveJoint, register_joint
 from ..registration.splines import SplineSurface
 from ..report.stopwatch import Progress
+from ..scan.cloud import PointCloud
 from .face_on_scan import Array, Deviations, FaceOnScan, farthest_of
 
 _LOOKED_AT = 8000
@@ -25,12 +26,12 @@ Found = list[tuple[FaceOnScan, Deviations, SplineSurface, float]]
 
 
 class WholePreview:
-    """All faces of a part on a scan, (n, 3) in mm."""
+    """All faces of a part on a scan in its frame."""
 
-    def __init__(self, part: Workpiece, points: Array) -> None:
-        self._part, self._points = part, points
-        some = np.random.default_rng(0).permutation(len(points))[:_LOOKED_AT]
-        self._few = self._on(points[some])
+    def __init__(self, part: Workpiece, scan: PointCloud) -> None:
+        self._part, self._scan = part, scan
+        some = np.random.default_rng(0).permutation(len(scan.points))[:_LOOKED_AT]
+        self._few = self._on(scan.points[some])
         self._all: list[FaceOnScan] = []
         self._coverage: list[float] = []
         self._live: tuple[tuple[str, ...], LiveJoint] | None = None
@@ -45,7 +46,7 @@ class WholePreview:
         wanted = joint_settings(settings)
         if self._live is None or self._live[0] != settings.freeze:
             part = joint_part(self._part, settings.freeze)
-            self._live = settings.freeze, LiveJoint(part, self._points, wanted)
+            self._live = settings.freeze, LiveJoint(part, self._scan.points, wanted, self._scan.normals)
         displacements = self._live[1].step(wanted)
         deviations = _own(self._few, displacements)
         if not self._coverage:
@@ -55,10 +56,10 @@ class WholePreview:
 
     def solve(self, settings: Settings, progress: Progress) -> Found:
         """The registration that OK will do; ``progress`` may raise to end it."""
-        found = register_joint(joint_part(self._part, settings.freeze), self._points, joint_settings(settings),
-                               lambda stage, share: progress(stage))
+        found = register_joint(joint_part(self._part, settings.freeze), self._scan.points,
+                               joint_settings(settings), lambda stage, share: progress(stage), self._scan.normals)
         if not self._all:
-            self._all = self._on(self._points)
+            self._all = self._on(self._scan.points)
         displacements = [face.displacement for face in found.faces]
         self._coverage = [face.coverage for face in found.faces]
         return list(zip(self._all, _own(self._all, displacements), displacements, self._coverage, strict=True))

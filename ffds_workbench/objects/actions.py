@@ -31,7 +31,8 @@ __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
     """A Points object of one scan file, or of several of one part; ``unit`` is that of the files."""
     names = [paths] if isinstance(paths, str) else list(paths)
-    return scans.add_scan(document, api.read_scan(names, unit).points, Path(names[0]).stem)
+    cloud = api.read_scan(names, unit)
+    return scans.add_scan(document, cloud.points, Path(names[0]).stem, cloud.normals)
 
 
 def replace_scan(scan: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
@@ -42,7 +43,8 @@ def replace_scan(scan: Any, paths: str | Sequence[str], unit: str = "mm") -> Any
     InputError : a file cannot be read
     """
     names = [paths] if isinstance(paths, str) else list(paths)
-    scans.set_points(scan, api.read_scan(names, unit).points)
+    cloud = api.read_scan(names, unit)
+    scans.set_points(scan, cloud.points, cloud.normals)
     scan.Label = Path(names[0]).stem
     scan.Document.recompute()
     return scan
@@ -55,7 +57,7 @@ def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
     if scan.getParentGeoFeatureGroup() is not None:
         raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
     aligned = alignment.find(source, scan, mode)
-    scans.set_points(scan, aligned.scan.points)
+    scans.set_points(scan, aligned.scan.points, aligned.scan.normals)
     return scan
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from .. import api
 from ..brep import files
 from ..report.stopwatch import Progress
-from .scans import scan_points
+from .scans import scan_cloud
 
 _last: dict[str, api.AlignedScan] = {}
 
@@ -21,12 +21,12 @@ def prepare(source: Any, scan: Any, mode: str) -> Callable[[Progress | None], ap
     ------
     InputError : the part or the scan cannot be used
     """
-    model, points = files.from_object(source), scan_points(scan)
-    key = hashlib.blake2b(model.shape.exportBrepToString().encode() + points.tobytes() + mode.encode()).hexdigest()
+    model, cloud = files.from_object(source), scan_cloud(scan)
+    key = hashlib.blake2b(model.shape.exportBrepToString().encode() + cloud.tobytes() + mode.encode()).hexdigest()
 
     def run(progress: Progress | None = None) -> api.AlignedScan:
         if key not in _last:
-            found = api.align_scan(model, points, mode, progress)
+            found = api.align_scan(model, cloud, mode, progress)
             _last.clear()
             _last[key] = found
         return _last[key]

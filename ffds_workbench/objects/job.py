@@ -12,12 +12,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .. import api
 from ..report.stopwatch import Progress
-from .scans import scan_points
+from .scans import scan_cloud
 from .sources import Source, read_source
 
 _KEPT = 3
@@ -43,14 +40,14 @@ class Job:
     """A registration in the part's own frame, so that it does not depend on where the part stands."""
 
     source: Source
-    points: NDArray[np.float64]
+    scan: api.PointCloud
     settings: Settings
 
     @cached_property
     def digest(self) -> str:
         """Differs where any input differs."""
         found = hashlib.blake2b(self.source.model.shape.exportBrepToString().encode())
-        found.update(np.ascontiguousarray(self.points).tobytes())
+        found.update(self.scan.tobytes())
         found.update(repr(self.settings).encode())
         return found.hexdigest()
 
@@ -64,7 +61,7 @@ class Job:
         if self.digest not in _results:
             wanted = self.settings
             result = api.register(
-                self.source.model, self.points, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
+                self.source.model, self.scan, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
                 wanted.source_points, wanted.isometry, progress, wanted.stiffness, wanted.gate)
             _ = result.report  # measured and waited for here, and not where the main thread asks for it
             _results[self.digest] = result
@@ -80,10 +77,10 @@ def make_job(item: Any, scan: Any, settings: Settings) -> Job:
     ------
     InputError : the part or the scan cannot be used
     """
-    return job_on(item, scan_points(scan), settings)
+    return job_on(item, scan_cloud(scan), settings)
 
 
-def job_on(item: Any, points: NDArray[np.float64], settings: Settings) -> Job:
-    """The registration of a document object to points (n, 3) in the document's coordinates; see `make_job`."""
+def job_on(item: Any, scan: api.PointCloud, settings: Settings) -> Job:
+    """The registration of a document object to a scan in the document's coordinates; see `make_job`."""
     source = read_source(item)
-    return Job(source, source.to_part(points), settings)
+    return Job(source, source.to_part(scan), settings)

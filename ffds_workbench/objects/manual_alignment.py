@@ -7,20 +7,18 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import api
 from ..brep import files
 from ..errors import InputError
 from ..registration.rigid.point_pairs import pose_of_pairs
 from ..report.stopwatch import Progress
-from .scans import scan_points, set_points
+from .scans import scan_cloud, set_points
 from .sources import standing_for
 
-Array = NDArray[np.float64]
 Picks = Sequence[tuple[float, float, float]]
 
-_last: dict[str, Array] = {}
+_last: dict[str, api.PointCloud] = {}
 
 
 def align_by_points(source: Any, scan: Any, on_scan: Picks, on_part: Picks, refine: bool = True) -> Any:
@@ -37,32 +35,33 @@ def align_by_points(source: Any, scan: Any, on_scan: Picks, on_part: Picks, refi
     InputError : the points, the part or the scan cannot be used
     RefusedError : the fine alignment finds no pose there that explains the scan
     """
-    set_points(scan, prepare(source, scan, on_scan, on_part, refine)(None))
+    found = prepare(source, scan, on_scan, on_part, refine)(None)
+    set_points(scan, found.points, found.normals)
     return scan
 
 
 def prepare(source: Any, scan: Any, on_scan: Picks, on_part: Picks,
-            refine: bool = True) -> Callable[[Progress | None], Array]:
+            refine: bool = True) -> Callable[[Progress | None], api.PointCloud]:
     """The alignment as a function that touches no document, for any thread (call this on the main thread).
 
-    It gives the points of the scan on the part, (n, 3) in the document's coordinates.
+    It gives the scan on the part, in the document's coordinates.
 
     Raises
     ------
     InputError : as `align_by_points` does
     """
     start = pose_of_pairs(np.array(on_scan, dtype=float), np.array(on_part, dtype=float))
-    points, model = scan_points(scan), files.from_object(standing_for(source))
+    cloud, model = scan_cloud(scan), files.from_object(standing_for(source))
     if scan.getParentGeoFeatureGroup() is not None:
         raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
-    key = hashlib.blake2b(model.shape.exportBrepToString().encode() + points.tobytes() + start.tobytes()
+    key = hashlib.blake2b(model.shape.exportBrepToString().encode() + cloud.tobytes() + start.tobytes()
                           + bytes([refine])).hexdigest()
 
-    def run(progress: Progress | None = None) -> Array:
+    def run(progress: Progress | None = None) -> api.PointCloud:
         if not refine:
-            return points @ start[:3, :3].T + start[:3, 3]
+            return cloud.moved(start)
         if key not in _last:
-            found = api.align_scan(model, points, "fine", progress, start).scan.points
+            found = api.align_scan(model, cloud, "fine", progress, start).scan
             _last.clear()
             _last[key] = found
         return _last[key]

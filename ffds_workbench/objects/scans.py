@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scans in a document: Points objects to arrays and back, in the document's coordinates."""
+"""Scans in a document: Points objects to point clouds and back, in the document's coordinates.
+
+Normals are kept as FreeCAD's own import keeps them: in the property Normal, where a scan has them.
+"""
 from __future__ import annotations
 
 import io
@@ -13,9 +16,15 @@ from numpy.typing import NDArray
 
 from ..brep.files import outer_placement
 from ..errors import InputError
+from ..scan.cloud import PointCloud
+from ..scan.normals import unit_normals
 
 Array = NDArray[np.float64]
 
+_NORMAL = "Normal"
+_VECTORS = """<Content>
+<VectorList file="Normal"/>
+</Content>"""
 _INDEX = """<Content>
 <Points file="Points" mtrx="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "/>
 </Content>"""
@@ -29,7 +38,12 @@ def is_scan(item: Any) -> bool:
 
 
 def scan_points(item: Any) -> Array:
-    """The points of a Points object in the document's coordinates, (n, 3) in mm; rows that are not finite left out.
+    """The points of `scan_cloud`, (n, 3) in mm."""
+    return scan_cloud(item).points
+
+
+def scan_cloud(item: Any) -> PointCloud:
+    """The scan of a Points object in the document's coordinates; points that are not finite left out.
 
     Raises
     ------
@@ -37,38 +51,51 @@ def scan_points(item: Any) -> Array:
     """
     if not is_scan(item):
         raise InputError(f"{getattr(item, 'Label', 'The scan')} is no point cloud: select a Points object as the scan.")
-    with zipfile.ZipFile(io.BytesIO(item.Points.dumpContent(0))) as archive:
-        stream = archive.read(archive.namelist()[-1])
-    rows = np.frombuffer(stream, np.float32, offset=4)[: 3 * (len(stream) // 12)].reshape(-1, 3).astype(float)
-    points = rows[np.isfinite(rows).all(axis=1)]
-    if not len(points):
+    rows = _rows(item.Points.dumpContent(0))
+    finite = np.isfinite(rows).all(axis=1)
+    if not finite.any():
         raise InputError(f"{item.Label} holds no points: import the scan anew.")
-    matrix = _matrix(item.getGlobalPlacement())
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
+    normals = _rows(item.dumpPropertyContent(_NORMAL, Compression=0)) if _has_normals(item) else rows[:0]
+    return _stored(rows[finite], normals[finite] if len(normals) == len(rows) else None,
+                   item.getGlobalPlacement())
 
 
-def add_scan(document: Any, points: Array, label: str) -> Any:
-    """A new Points object of points (n, 3) in mm."""
+def add_scan(document: Any, points: Array, label: str, normals: Array | None = None) -> Any:
+    """A new Points object of points (n, 3) in mm, and their unit normals if there are any."""
     item = document.addObject("Points::Feature", "Scan")
     item.Label = label
-    set_points(item, points)
+    set_points(item, points, normals)
     return item
 
 
-def set_points(item: Any, points: Array) -> None:
+def set_points(item: Any, points: Array, normals: Array | None = None) -> None:
     """Replace the points of a Points object by (n, 3) in the coordinates of what holds it; its placement is reset."""
     origin = _origin(points)
     item.Points = _kernel(points - origin)
     item.Placement = FreeCAD.Placement(FreeCAD.Vector(*origin.tolist()), FreeCAD.Rotation())
+    if normals is not None:
+        if not _has_normals(item):
+            item.addProperty("Points::PropertyNormalList", _NORMAL, "Points", "The normals of the points")
+        item.restorePropertyContent(_NORMAL, _content(_VECTORS, _NORMAL, normals))
+    elif _has_normals(item):
+        setattr(item, _NORMAL, [])
 
 
-def as_stored(item: Any, points: Array) -> Array:
-    """What `scan_points` will give after ``set_points(item, points)``."""
-    origin = _origin(points)
+def as_stored(item: Any, scan: PointCloud) -> PointCloud:
+    """What `scan_cloud` will give after ``set_points(item, scan.points, scan.normals)``."""
+    origin = _origin(scan.points)
     placement = FreeCAD.Placement(FreeCAD.Vector(*origin.tolist()), FreeCAD.Rotation())
-    matrix = _matrix(outer_placement(item).multiply(placement))
-    rows = (points - origin).astype(np.float32).astype(float)
-    return rows @ matrix[:3, :3].T + matrix[:3, 3]
+    normals = None if scan.normals is None else scan.normals.astype(np.float32).astype(float)
+    return _stored((scan.points - origin).astype(np.float32).astype(float), normals,
+                   outer_placement(item).multiply(placement))
+
+
+def _stored(points: Array, normals: Array | None, placement: FreeCAD.Placement) -> PointCloud:
+    return PointCloud(points, normals=None if normals is None else unit_normals(normals)).moved(_matrix(placement))
+
+
+def _has_normals(item: Any) -> bool:
+    return _NORMAL in item.PropertiesList and item.getTypeIdOfProperty(_NORMAL) == "Points::PropertyNormalList"
 
 
 def _origin(points: Array) -> Array:
@@ -77,13 +104,25 @@ def _origin(points: Array) -> Array:
 
 def _kernel(points: Array) -> Points.Points:
     """Points as FreeCAD's own, by way of its file format: adding them one by one takes 50 times as long."""
+    kernel = Points.Points()
+    kernel.restoreContent(_content(_INDEX, "Points", points))
+    return kernel
+
+
+def _content(index: str, name: str, rows: Array) -> bytes:
+    """Rows (n, 3) as FreeCAD saves them: an index and a file of single precision."""
     memory = io.BytesIO()
     with zipfile.ZipFile(memory, "w", zipfile.ZIP_STORED) as archive:
-        archive.writestr("Persistence.xml", _INDEX)
-        archive.writestr("Points", np.uint32(len(points)).tobytes() + points.astype("<f4").tobytes())
-    kernel = Points.Points()
-    kernel.restoreContent(memory.getvalue())
-    return kernel
+        archive.writestr("Persistence.xml", index)
+        archive.writestr(name, np.uint32(len(rows)).tobytes() + rows.astype("<f4").tobytes())
+    return memory.getvalue()
+
+
+def _rows(content: bytes) -> Array:
+    """The rows (n, 3) in what FreeCAD saves."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        stream = archive.read(archive.namelist()[-1])
+    return np.frombuffer(stream, np.float32, offset=4)[: 3 * (len(stream) // 12)].reshape(-1, 3).astype(float)
 
 
 def _matrix(placement: FreeCAD.Placement) -> Array:

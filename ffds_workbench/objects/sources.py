@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..brep import files
 from ..brep.files import Model
 from ..errors import InputError
+from ..scan.cloud import PointCloud
 
 
 @dataclass(frozen=True)
@@ -32,10 +33,9 @@ class Source:
     placement: FreeCAD.Placement
     T_document_part: NDArray[np.float64]
 
-    def to_part(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points (n, 3) of the document in the part's own frame."""
-        rotation, shift = self.T_document_part[:3, :3], self.T_document_part[:3, 3]
-        return (points - shift) @ rotation
+    def to_part(self, scan: PointCloud) -> PointCloud:
+        """A scan in the document's coordinates, in the part's own frame."""
+        return scan.moved(np.linalg.inv(self.T_document_part))
 
 
 def standing_for(item: Any) -> Any:

@@ -2,7 +2,7 @@
 """The point cloud as the rest of the program sees it: finite points in mm."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,3 +25,14 @@ class PointCloud:
     dropped: int = 0
     unit: str = "mm"
     normals: NDArray[np.float64] | None = None
+
+    def moved(self, pose: NDArray[np.float64], scale: float = 1.0) -> PointCloud:
+        """The scan multiplied by ``scale`` and then moved by a rigid motion (4, 4), with a shift in mm."""
+        rotation, shift = pose[:3, :3], pose[:3, 3]
+        return replace(self, points=scale * self.points @ rotation.T + shift,
+                       normals=None if self.normals is None else self.normals @ rotation.T)
+
+    def tobytes(self) -> bytes:
+        """Differs where points or normals differ."""
+        return b"".join(np.ascontiguousarray(rows).tobytes() for rows in (self.points, self.normals)
+                        if rows is not None)

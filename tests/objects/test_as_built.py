@@ -14,6 +14,7 @@ from ffds_workbench.api import registering
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.objects import actions, scans
 from ffds_workbench.objects.as_built import lattices_of, report_of
+from ffds_workbench.scan.cloud import PointCloud
 
 NOISE = 0.02
 
@@ -241,7 +242,7 @@ def test_a_replaced_scan_takes_the_part_along_and_is_known_beforehand(document, 
     for shift in (0.0, 5000.0):
         group.Placement.Base.x = -shift
         np.savetxt(tmp_path / "second.xyz", plate_scan(2.0) + [shift, 0, 0])
-        expected = scans.as_stored(scan, np.loadtxt(tmp_path / "second.xyz"))
+        expected = scans.as_stored(scan, PointCloud(np.loadtxt(tmp_path / "second.xyz"))).points
         actions.replace_scan(scan, str(tmp_path / "second.xyz"))
         assert scan.Label == "second" and np.array_equal(scans.scan_points(scan), expected)
         assert height_at_middle(item.Shape) == pytest.approx(20 - 7, abs=2 * NOISE)

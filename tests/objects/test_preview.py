@@ -13,6 +13,7 @@ import pytest
 
 from ffds_workbench.gui.preview import Preview, figures
 from ffds_workbench.objects.job import Settings
+from ffds_workbench.scan.cloud import PointCloud
 
 NOISE = 0.02
 
@@ -26,7 +27,7 @@ def preview() -> Preview:
     random = np.random.default_rng(1)
     x, y = random.uniform((0, 0), (60, 40), (20000, 2)).T
     z = 5 + np.exp(-((x - 30) ** 2 + (y - 20) ** 2) / (2 * 12**2)) + random.normal(0, NOISE, 20000)
-    return Preview(Part.makeBox(60, 40, 5), np.stack([x, y, z], axis=1))
+    return Preview(Part.makeBox(60, 40, 5), PointCloud(np.stack([x, y, z], axis=1)))
 
 
 @pytest.mark.parametrize("settings", [Settings(faces=("Face6",)), Settings()])

@@ -101,11 +101,11 @@ def _replace(scan: Any, paths: list[str], unit: str) -> None:
     from ...objects.job import job_on
     from ...objects.scans import as_stored
 
-    points = as_stored(scan, read_scan(paths, unit).points)
+    cloud = as_stored(scan, read_scan(paths, unit))
     for item in scan.InList:
         if is_as_built(item) and item.Scan is scan:
             in_background(tr("Computing {part}").format(part=item.Label),
-                          job_on(item.Source, points, settings_of(item)).run)
+                          job_on(item.Source, cloud, settings_of(item)).run)
     call(scan.Document, "Replace scan", f"replace_scan({name_of(scan)}, {paths!r}, unit={unit!r})")
 
 
