@@ -78,8 +78,9 @@ def _cases(folder: Path, data: dict[str, Any]) -> Section:
     rows = [_case(row) for row in data["cases"]]
     text = ["Whole parts, all faces at once, mm; σ = 0.13 mm along the view. The written STEP is judged by an "
             "independent evaluate.py where it lies beside the project, else by the truth's points. One-view scans see "
-            "one side; dirty ones have gaps, 2 % outliers, a table, and 30 % of their noise correlated, as the sensor "
-            "profile says. Seconds are of one thread with the machine shared by as many processes as processors."]
+            "one side, with normals as a sensor estimates them where it says so; dirty ones have gaps, 2 % outliers, a "
+            "table, and 30 % of their noise correlated, as the sensor profile says. Seconds are of one thread with the "
+            "machine shared by as many processes as processors."]
     pictures = [Picture(style.save(_chart(data), folder, "accuracy"), "Mean true deviation by case")]
     return Section("Whole parts", text, pictures if rows else [], [Table("Cases, mm", head, rows)] if rows else [])
 

@@ -39,6 +39,9 @@ _WARPS = {
     "pipe-on-plate": ("bumps", "mix", "twist", "bend"), "turned-part": ("bend", "mix", "bumps", "twist"),
 }
 _KINDS = ("clean", "one-view", "clean", "dirty")
+WITHOUT_NORMALS = ("free-form-panel", "bend", 15, "one-view")
+WITH_NORMALS = (*WITHOUT_NORMALS[:3], "one-view with normals")
+"""One skin of a thin sheet that moved by half its thickness: points alone do not tell which, a sensor's normals do."""
 _JUDGED = 1500
 """Truth points per face, at most."""
 _DEGENERATE = 1e-9
@@ -53,6 +56,8 @@ def family_cases(count: int) -> list[tuple[str, str, int, str]]:
         family = list(_WARPS)[index]
         warps = _WARPS[family]
         names.append((family, warps[turn % len(warps)], seed, _KINDS[(seed + turn) % len(_KINDS)]))
+        if names[-1] == WITHOUT_NORMALS:
+            names.append(WITH_NORMALS)
     return names
 
 

@@ -15,7 +15,9 @@ import numpy as np
 import Part
 
 from ..brep.simulation import edge_points, target_of
+from ..registration.splines import Array
 from ..scan.sensor import SensorSettings, SimulatedScan, Target, Truth, View, make_truth, simulate
+from ..scan.sensor.camera import place
 from ..scan.sensor.files import write_ply
 from . import warps
 from .parts import FAMILIES, FamilyPart
@@ -24,10 +26,13 @@ WARPS = ("iso", "springback", "mix", "bumps", "twist", "bend")
 SCANS: dict[str, dict[str, float]] = {
     "clean": {},
     "one-view": {},
+    "one-view with normals": {},
     "dirty": {"correlation": 1.5, "correlated_share": 0.3, "holes": 6, "outliers": 0.02, "table": 1.0,
               "edge_dropout": 0.5},
 }
 """Settings of the sensor by name; the views come from the family."""
+_NEIGHBOURS = 20
+"""Points that a normal is estimated from: with the noise of the sensor it is off by some degrees."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,7 @@ class Case:
     target: Target
     scan: SimulatedScan
     truth: Truth
+    normals: Array | None = None
 
     @property
     def largest_displacement(self) -> float:
@@ -59,7 +65,7 @@ class Case:
         """Write the case into a folder, which is made."""
         folder.mkdir(parents=True, exist_ok=True)
         self.part.shape.exportStep(str(folder / "nominal.step"))
-        write_ply(folder / "scan.ply", self.scan.points)
+        write_ply(folder / "scan.ply", self.scan.points, self.normals)
         self.truth.write(folder / "truth.npz")
         about = {"part": self.family, "warp": self.warp, "scan_settings": self.scan_name, "seed": self.seed,
                  "points": len(self.scan.points), "faces": len(self.target.faces), "visible_faces": self.visible_faces,
@@ -81,14 +87,30 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     part = through_step(FAMILIES[family](rng))
     move = deformation(part, warp, amplitude, rng)
     target = target_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
-    directions = part.views[:1] if scan_name == "one-view" else part.views
+    directions = part.views[:1] if scan_name.startswith("one-view") else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
     views = tuple(View(tuple(direction)) for direction in directions)
     settings = SensorSettings(spacing=0.35, views=views, seed=int(rng.integers(2**31)), **SCANS[scan_name])
     before = edge_points(part.shape)
     after = move(before.reshape(-1, 3)).reshape(before.shape)
     truth = make_truth(target, settings, before, after, part.thickness)
-    return Case(family, warp, scan_name, seed, part, target, simulate(target, settings), truth)
+    scan = simulate(target, settings)
+    normals = sensed_normals(scan, target, settings) if scan_name.endswith("with normals") else None
+    return Case(family, warp, scan_name, seed, part, target, scan, truth, normals)
+
+
+def sensed_normals(scan: SimulatedScan, target: Target, settings: SensorSettings) -> Array:
+    """Normals as a sensor writes them, (n, 3): of the planes through neighbouring points of a shot, to its camera."""
+    import open3d
+
+    normals = np.zeros_like(scan.points)
+    for number, view in enumerate(settings.views):
+        own = scan.shot == number
+        cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(scan.points[own]))
+        cloud.estimate_normals(open3d.geometry.KDTreeSearchParamKNN(_NEIGHBOURS))
+        cloud.orient_normals_towards_camera_location(place(view, target.centre, settings.standoff).position)
+        normals[own] = np.asarray(cloud.normals)
+    return normals
 
 
 def deformation(part: FamilyPart, warp: str, amplitude: float, rng: np.random.Generator) -> warps.Warp:

@@ -28,3 +28,18 @@ def test_a_fine_alignment_stays_on_the_side_that_is_nearer():
     assert found.verdict == "ambiguous"
     # the noise of 0.05 mm over thousands of points, and a plate that may turn by a few of them over its width
     np.testing.assert_allclose(found.T_model_scan[2], [0, 0, 1, 0.8], atol=0.01)
+
+
+def test_normals_turn_with_the_scan_and_are_written(tmp_path):
+    """A box seen from three sides, moved: each normal is that of its side again, as far as the pose is known."""
+    generator = np.random.default_rng(4)
+    size, sides = np.array([60.0, 40.0, 20.0]), generator.integers(0, 3, 20_000)
+    points, normals = generator.uniform(0, size, (20_000, 3)), np.eye(3)[sides]
+    points[np.arange(20_000), sides] = size[sides]
+    angle = np.deg2rad(5)
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    scan = api.PointCloud(points @ turn.T + [1, -2, 0.5], normals=normals @ turn.T)
+    aligned = api.align_scan(Part.makeBox(*size), scan, "fine")
+    np.testing.assert_allclose(aligned.scan.normals, normals, atol=1e-3)
+    api.write_alignment(aligned, tmp_path / "aligned.ply")
+    np.testing.assert_allclose(api.read_scan(tmp_path / "aligned.ply").normals, aligned.scan.normals, atol=1e-12)

@@ -15,6 +15,7 @@ from ffds_workbench.benchmark.families import WARPS, deformation, make_case
 from ffds_workbench.benchmark.parts import FAMILIES
 from ffds_workbench.benchmark.profile import Piece, Profile
 from ffds_workbench.brep.simulation import edge_points
+from ffds_workbench.scan import files
 
 HAT = Profile((Piece(15), Piece(8, 1.4), Piece(20), Piece(8, -1.4), Piece(30), Piece(8, -1.4), Piece(20), Piece(8, 1.4),
                Piece(15)), 2.0)
@@ -85,3 +86,21 @@ def test_a_case_is_a_folder_that_tells_the_truth(tmp_path):
     # the scan stands about the warped part: the noise of 0.13 mm along the view, and the truth's own spacing of 1.2 mm
     near = cKDTree(truth["warped"][truth["visible"]]).query(case.scan.points[::50])[0]
     assert np.median(near) < 1.0 and near.max() < 6.0
+
+
+def test_normals_as_a_sensor_writes_them(tmp_path):
+    """The same points as without; normals face the camera and are some degrees off the warped surface's."""
+    plain, case = (make_case("free-form-panel", "bend", 15, kind) for kind in ("one-view", "one-view with normals"))
+    np.testing.assert_array_equal(plain.scan.points, case.scan.points)
+    case.write(tmp_path)
+    normals = files.read(tmp_path / "scan.ply").normals
+    assert plain.normals is None
+    np.testing.assert_allclose(normals, case.normals, atol=1e-12)
+    assert (normals @ case.part.views[0] > 0).mean() > 0.98
+    truth, seen = case.truth, case.truth.visible
+    surface = cKDTree(truth.warped[seen])
+    place, index = truth.warped[seen], surface.query(case.scan.points, k=1)[1]
+    around = place[surface.query(place, k=30)[1]]
+    smooth = np.linalg.svd(around - around.mean(axis=1, keepdims=True), full_matrices=False)[2][:, 2]
+    off = np.degrees(np.arccos(np.clip(np.abs(np.einsum("nx,nx->n", normals, smooth[index])), 0, 1)))
+    assert 2 < np.median(off) < 20
