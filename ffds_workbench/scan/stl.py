@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""STL, ascii and binary: the corners of the triangles, each of them once."""
+"""STL, ascii and binary: the corners of the triangles, each of them once, with the mean normals of their triangles."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -14,7 +14,7 @@ _HEADER = 84
 
 
 def read(path: Path) -> NDArray[np.float64]:
-    """The different corners, (n, 3), in the order of their first appearance.
+    """The different corners and the normals there, (n, 6), in the order of their first appearance.
 
     Raises
     ------
@@ -31,8 +31,21 @@ def read(path: Path) -> NDArray[np.float64]:
                          f"does not fit.")
     else:
         raise InputError(f"The scan {path} is not an STL file.")
-    _, first = np.unique(corners, axis=0, return_index=True)
-    return corners[np.sort(first)]
+    return _merged(corners)
+
+
+def _merged(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The different ones of the corners (3 m, 3) with unit normals, to which larger triangles contribute more: (n, 6).
+
+    The order of a triangle's corners tells its side; the normals that the file holds besides are often missing.
+    """
+    places, first, number = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    a, b, c = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
+    with np.errstate(invalid="ignore"):  # corners that are not finite are dropped later
+        normal = np.repeat(np.cross(b - a, c - a), 3, axis=0)
+    total = np.stack([np.bincount(number.ravel(), normal[:, axis], len(places)) for axis in range(3)], axis=1)
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.hstack([places, total / np.where(length > 0, length, 1.0)])[np.argsort(first)]
 
 
 def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
@@ -41,6 +54,6 @@ def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
         raise InputError(f"The scan {path} is cut off: its STL text has no end.")
     corners = [words[1:4] for words in lines if words and words[0].lower() == "vertex"]
     try:
-        return np.array(corners, dtype=np.float64).reshape(-1, 3)
+        return np.array(corners, dtype=np.float64).reshape(-1, 3, 3).reshape(-1, 3)
     except ValueError as error:
         raise InputError(f"The scan {path} is damaged: a corner is not made of three numbers.") from error

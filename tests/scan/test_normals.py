@@ -88,6 +88,18 @@ def test_lines_that_end_early_have_no_normals_but_are_read(tmp_path):
     assert (len(cloud.points), cloud.normals) == (len(POINTS) + 1, None)
 
 
+def test_triangles_tell_the_normals_of_an_stl(tmp_path):
+    """Two walls of a trough: the order of the corners counts, not the normals that the file holds."""
+    trough = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 0, 0], [0, 4, 0], [0, 0, 2]]], dtype="<f4")
+    content = b"scan".ljust(80) + struct.pack("<I", 2)
+    content += b"".join(bytes(12) + facet.tobytes() + bytes(2) for facet in trough)
+    cloud = read(tmp_path, "s.stl", content)
+    # Areas of 8 and 4 mm²: at the common corners the first counts twice.
+    both = np.array([1, 0, 2]) / np.sqrt(5)
+    np.testing.assert_allclose(cloud.points, [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 2]])
+    np.testing.assert_allclose(cloud.normals, [both, [0, 0, 1], both, [1, 0, 0]], atol=ROUNDED)
+
+
 def test_a_row_without_a_normal_is_zero_and_dropped_points_take_theirs_along(tmp_path):
     rows = ROWS.copy()
     rows[3, 3:], rows[5, 0] = 0.0, np.nan
