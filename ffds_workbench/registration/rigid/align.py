@@ -8,6 +8,7 @@ import numpy as np
 
 from ..splines import Array
 from .alignment import FAILED, Alignment
+from .field import SOFT, STIFF
 from .hypothesis import Verified, best_of, nearest_of, turned_on, verify, worth_a_look
 from .polish import polish
 from .proposals import LOCAL, THOROUGH, Stage, propose
@@ -82,7 +83,7 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
             best = best_of(verified, mode, target, sketch)
     pose = polish(target, sketch, best.pose, best.normals, best.evidence.coverage)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
-    after = examine(target, sketch, pose, turned_on(best, pose), table)
+    after = examine(target, sketch, pose, turned_on(best, pose), table, freedom=SOFT)
     best = Verified(pose, max(best.evidence, after, key=lambda evidence: evidence.score), turned_on(best, pose))
     return answer_of(target, sketch, table, best, verified, scale)
 
@@ -92,6 +93,7 @@ def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, 
     """The most promising poses, refined and verified."""
     candidates = propose(target, sketch, starts, stages, generator)
     few = sketch.every(_EVERY)
-    rough = [verify(target, few, table, pose, signs)
+    rough = [verify(target, few, table, pose, signs, STIFF)
              for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
-    return [verify(target, sketch, table, found.pose, candidates.signs[k]) for k, found in worth_a_look(rough, target)]
+    return [verify(target, sketch, table, found.pose, candidates.signs[k], SOFT)
+            for k, found in worth_a_look(rough, target)]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..splines import Array
+from .field import Freedom
 from .fine import refine
 from .motions import angle, apply, shift
 from .polish import is_deformed
@@ -42,8 +43,10 @@ class Verified:
     reason: str = "found"
 
 
-def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array) -> Verified:
-    """The pose refined against the side of the part that the scan shows, and what speaks for it."""
+def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array,
+           freedom: Freedom) -> Verified:
+    """The pose refined against the side of the part that the scan shows, and what speaks for it, a smooth deformation
+    of that freedom allowed for."""
     pose, normals = refined(target, sketch, pose, signs)
     if not is_rough(target, sketch):
         patched, turned = mended(target, sketch, pose, normals, max(_ON * target.size, 4.0 * sketch.noise))
@@ -53,7 +56,7 @@ def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, sig
             # of a deformed sheet some points lie nearer to the far side
             if not is_deformed(target, sketch, closer, patched):
                 pose, normals = closer, patched
-    return Verified(pose, examine(target.light, sketch, pose, normals, table), normals)
+    return Verified(pose, examine(target.light, sketch, pose, normals, table, freedom=freedom), normals)
 
 
 def refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:

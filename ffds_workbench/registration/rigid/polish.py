@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..splines import Array
 from .deformed import Outline, settle
-from .ends import Ends, find_ends, width_of_ends
+from .ends import Ends, depth_of, find_ends, width_of_ends
 from .fine import gauss_newton, refine, tukey
 from .motions import apply, step
 from .search import field_of
@@ -22,7 +22,7 @@ _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
 _FEW, _MATCHED = 500, 1_000
 """Points that a pose is brought nearer with, and about how many a deformed part is matched by."""
-_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 24_000
+_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 12_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
@@ -97,8 +97,9 @@ def polish_rigid(target: Target, sketch: Sketch, pose: Array, coverage: float) -
     wide = width_of_ends(target.rims, density, _FIRST_WIDTH * target.size)
     chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
     points, share = points[chosen], len(sketch.pool) / len(looked_at)
-    near = looked_at[target.rims.near(looked_at, pose)]
-    for width, most in ((max(wide, narrow), _NEAR_RIMS // 4), (narrow, _NEAR_RIMS)):
+    near = looked_at
+    for width, most in ((max(wide, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
+        near = near[target.rims.near(near, pose, depth_of(width))]
         some = near[:: 1 + len(near) // most]
         ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
         # each stands for as many points of the scan as one on a face does

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..splines import Array
 from .alignment import Alignment
+from .field import SOFT, STIFF
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
 from .motions import motion
@@ -18,7 +19,7 @@ from .sketch import Plane, Sketch, find_table, sketch_of
 from .starts import turns_up_to
 from .target import Target
 from .verdict import FAILS, answer_of
-from .verify import examine, is_rough, matched, weigh
+from .verify import examine, is_rough, matched, misfit_of, weigh
 
 _FEWEST = 50
 _ROTATIONS, _TURN = 12, 0.5
@@ -97,19 +98,23 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
 def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
               ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
-    matches = [matched(target.light, sketch, side.pose, side.normals) for side in sides]
-    looks = [weigh(target.light, sketch, side.pose, side.normals, table, found)
-             for side, found in zip(sides, matches, strict=True)]
-    order = np.argsort([look.misfit for look in looks])
-    side, evidence = sides[order[0]], looks[order[0]]
-    if evidence.explained < _CLEARLY_RIGHT or evidence.misfit > _CLEARLY_BETTER * looks[order[1]].misfit:
-        return None
-    pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
-                           evidence.coverage, matches[order[0]].points)
-    normals = outward(sketch, side.signs) @ pose[:3, :3].T
-    if evidence.certainty < _CERTAIN:
-        evidence = examine(target.light, sketch, pose, normals, table)
-    if evidence.certainty < _CERTAIN:
-        return None
-    best = Verified(pose, evidence, normals)
-    return answer_of(target, sketch, table, best, [best], scale)
+    for freedom in (STIFF, SOFT):
+        matches = [matched(target.light, sketch, side.pose, side.normals, freedom=freedom) for side in sides]
+        misfits = [misfit_of(target.light, sketch, side.normals, found)
+                   for side, found in zip(sides, matches, strict=True)]
+        better = int(np.argmin(misfits))
+        if misfits[better] > _CLEARLY_BETTER * misfits[1 - better]:
+            continue
+        side, found = sides[better], matches[better]
+        evidence = weigh(target.light, sketch, side.pose, side.normals, table, found)
+        if evidence.explained < _CLEARLY_RIGHT:
+            continue
+        pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
+                               evidence.coverage, found.points)
+        normals = outward(sketch, side.signs) @ pose[:3, :3].T
+        if evidence.certainty < _CERTAIN:
+            evidence = examine(target.light, sketch, pose, normals, table, freedom=freedom)
+        if evidence.certainty >= _CERTAIN:
+            best = Verified(pose, evidence, normals)
+            return answer_of(target, sketch, table, best, [best], scale)
+    return None

@@ -16,7 +16,7 @@ from ..splines import Array
 from .trimmed import inside_trims
 
 _MOST_PER_FACE = 1500
-_VOXELS = 60
+_VOXELS = 120
 """Of the grid that tells which points lie near rims, along the part."""
 _STRETCH = 8
 """Points of a stretch of rim, half the spacing of the part's samples apart."""
@@ -92,11 +92,11 @@ class Rims:
         return float(np.ptp(self.points, axis=0).max()) / _VOXELS
 
     @cached_property
-    def _apart(self) -> NDArray[np.int32]:
+    def _apart(self) -> NDArray[np.uint8]:
         """How many voxels each is from one that holds a point, across faces, edges or corners; flat."""
         free = np.ones((_VOXELS + 4,) * 3, dtype=bool)
         free.ravel()[self._voxel(self.points, np.eye(4))] = False
-        return np.asarray(distance_transform_cdt(free, "chessboard")).ravel()
+        return np.asarray(distance_transform_cdt(free, "chessboard")).astype(np.uint8).ravel()
 
     def _voxel(self, points: Array, pose: Array) -> NDArray[np.int32]:
         """Number of the voxel that a pose (4, 4) moves each point (n, 3) into."""

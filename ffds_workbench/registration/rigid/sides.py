@@ -59,14 +59,12 @@ def _links(points: Array, normals: Array, neighbours: int) -> tuple[NDArray[np.i
     (König and Gumhold, Consistent propagation of normal orientations in point clouds, 2009).
     """
     distance, index = cKDTree(points).query(points, k=min(neighbours, len(points)))
-    start, end = np.repeat(np.arange(len(points)), index.shape[1] - 1), index[:, 1:].ravel()
-    length = distance[:, 1:].ravel()
-    step = (points[end] - points[start]) / np.maximum(length, 1e-12)[:, None]
-    dot, rise, fall = (np.einsum("ni,ni->n", a, b)
-                       for a, b in ((normals[start], normals[end]), (normals[start], step), (normals[end], step)))
-    agrees = dot - 2.0 * rise * fall
+    length, index = distance[:, 1:], index[:, 1:]
+    theirs, step = normals.take(index, axis=0), points.take(index, axis=0) - points[:, None]
+    dot, rise = ((values @ normals[:, :, None])[:, :, 0] for values in (theirs, step))
+    agrees = dot - 2.0 * rise * np.einsum("nki,nki->nk", theirs, step) / np.maximum(length, 1e-12) ** 2
     linked = (length < _FAR * np.median(length)) & (np.abs(agrees) > _SURE)
-    return start[linked], end[linked], agrees[linked]
+    return np.nonzero(linked)[0], index[linked], agrees[linked]
 
 
 def _summed(start: NDArray[np.intp], end: NDArray[np.intp], vote: Array, count: int,

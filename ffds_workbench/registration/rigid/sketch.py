@@ -13,6 +13,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from ..splines import Array
 from .sides import turn_to_one_side
+from .target import workers
 
 _POOL = 40_000
 _POINTS, _FINER = 2_000, 4
@@ -22,7 +23,7 @@ _ROUGH = 0.22
 _SPARSE, _ALONE = 4.0, 1.6
 """A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
 its neighbours' own are."""
-_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
+_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 300, 1.5
 """Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
 over it from which a point may be stray."""
 _DENSE = 100
@@ -85,15 +86,15 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     pool_size : how many points of the scan to look at
     finer : so many times as many points tell the sides of the surface: far ones link what is not one surface
     """
-    pool = scan if len(scan) <= pool_size else scan[generator.integers(0, len(scan), pool_size)]
+    pool = scan if len(scan) <= pool_size else scan.take(generator.integers(0, len(scan), pool_size), axis=0)
     tree = cKDTree(pool, balanced_tree=False, compact_nodes=False)
     points = pool[thin(pool, finer * count)]
-    distance, index = tree.query(points, k=min(_NEIGHBOURS[0], len(pool)))
+    distance, index = tree.query(points, k=min(_NEIGHBOURS[0], len(pool)), workers=workers(points))
     among = _among_others(tree, distance, index)
     points, distance, index = points[among], distance[among], index[among]
     normals, roughness = _local_planes(pool[index])
     if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) > _ROUGH:
-        index = tree.query(points, k=min(_NEIGHBOURS[1], len(pool)))[1]
+        index = tree.query(points, k=min(_NEIGHBOURS[1], len(pool)), workers=workers(points))[1]
         normals, roughness = _local_planes(pool[index])
     normals, piece = turn_to_one_side(points, normals)
     even = thin(points, count)
@@ -105,11 +106,11 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
     if len(points) <= count:
         return np.arange(len(points))
     low, high = 0.0, float(np.ptp(points, axis=0).max())
-    base = points - points.min(axis=0)
+    base = np.ascontiguousarray((points - points.min(axis=0)).T)
     chosen = np.arange(len(points))
     probe = high / np.sqrt(count)
     for _ in range(12):
-        chosen = _first_of_each(np.floor(base / probe).astype(np.int64))
+        chosen = _first_of_each((base * (1.0 / probe)).astype(np.int64))
         if 0.85 * count <= len(chosen) <= 1.15 * count:
             break
         low, high = (probe, high) if len(chosen) > count else (low, probe)
@@ -120,13 +121,13 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
 
 
 def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
-    """Index of a point in each of the cells (n, 3), numbered from 0, that hold any."""
-    shape = cell.max(axis=0) + 1
-    key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
-    if np.prod(shape, dtype=float) > _DENSE * len(cell):
+    """Index of a point in each of the cells (3, n), numbered from 0, that hold any."""
+    shape = cell.max(axis=1) + 1
+    key = (cell[0] * shape[1] + cell[1]) * shape[2] + cell[2]
+    if np.prod(shape, dtype=float) > _DENSE * len(key):
         return np.unique(key, return_index=True)[1]
     first = np.full(shape.prod(), -1, dtype=np.intp)
-    first[key] = np.arange(len(cell))
+    first[key] = np.arange(len(key))
     return first[first >= 0]
 
 
@@ -158,14 +159,14 @@ def _local_planes(neighbourhoods: Array, rounds: int = 1) -> tuple[Array, Array]
     Repeated with less weight for neighbours off the plane: the other side of a thin sheet is not the same surface.
     """
     offset = neighbourhoods - neighbourhoods[:, :1]
-    radius = np.linalg.norm(offset, axis=2).max(axis=1, keepdims=True)
+    radius = np.sqrt(np.einsum("nki,nki->nk", offset, offset).max(axis=1, keepdims=True))
     weight = np.ones(offset.shape[:2])
     for turn in range(rounds + 1):
         total = weight.sum(axis=1)
-        centred = offset - np.einsum("nk,nki->ni", weight, offset)[:, None] / total[:, None, None]
+        centred = offset - (weight[:, None] @ offset) / total[:, None, None]
         values, vectors = np.linalg.eigh(np.swapaxes(centred * weight[:, :, None], 1, 2) @ centred)
         if turn < rounds:
-            height = np.einsum("nki,ni->nk", offset, vectors[:, :, 0])
+            height = (offset @ vectors[:, :, :1])[:, :, 0]
             weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
     freedom = np.maximum(total - 3.0, 1.0)
     return vectors[:, :, 0], np.sqrt(np.maximum(values[:, 0], 0.0) / freedom)

@@ -157,6 +157,12 @@ class Target:
         return max(ConvexHull(points).volume for points in pictures  # a plane face is a line from aside
                    if np.ptp(points, axis=0).min() > _FLAT * np.ptp(points))
 
+    @cached_property
+    def _forms(self) -> Array:
+        """Place, normal, tangents and curvature of the samples side by side: one look-up for all; (n, 15)."""
+        s = self.samples
+        return np.concatenate([s.points, s.normals, s.tangents.reshape(-1, 6), s.curvature], axis=1)
+
     def heights(self, points: Array, nearest: NDArray[np.intp]) -> tuple[Array, Array]:
         """Signed heights of points over the faces, to second order about the nearest sample.
 
@@ -170,15 +176,15 @@ class Target:
         height : (n,) in mm, positive outside
         normal : (n, 3) outward normal at the foot point
         """
-        s = self.samples
-        offset = points - s.points[nearest]
-        along = np.einsum("nij,nj->ni", s.tangents[nearest], offset)
-        h11, h12, h22 = s.curvature[nearest].T
-        slope = np.stack([h11 * along[:, 0] + h12 * along[:, 1], h12 * along[:, 0] + h22 * along[:, 1]], axis=1)
-        normal = s.normals[nearest] - np.einsum("ni,nij->nj", slope, s.tangents[nearest])
+        row = self._forms.take(nearest, axis=0)
+        offset = points - row[:, :3]
+        outward, first, second = row[:, 3:6], row[:, 6:9], row[:, 9:12]
+        along, across, flat = (np.einsum("ni,ni->n", axis, offset) for axis in (first, second, outward))
+        h11, h12, h22 = row[:, 12:].T
+        slope, slope_across = h11 * along + h12 * across, h12 * along + h22 * across
+        normal = outward - slope[:, None] * first - slope_across[:, None] * second
         length = np.linalg.norm(normal, axis=1)
-        flat = np.einsum("ni,ni->n", s.normals[nearest], offset)
-        height = (flat - 0.5 * np.einsum("ni,ni->n", slope, along)) / length
+        height = (flat - 0.5 * (slope * along + slope_across * across)) / length
         return height, normal / length[:, None]
 
     @cached_property
@@ -216,7 +222,7 @@ def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], R
 
 def workers(points: Array) -> int:
     """Threads that a search for so many points is worth."""
-    return -1 if len(points) > 4000 else 1
+    return -1 if len(points) > 1000 else 1
 
 
 def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:

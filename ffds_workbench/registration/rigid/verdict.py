@@ -17,7 +17,7 @@ from .symmetry import Symmetry, symmetry_of
 from .target import Target
 from .units import unit_name
 
-_COUNTED = 2_000
+_COUNTED = 1_000
 """Points for the fitness."""
 FAILS = 0.775
 """Certainty below which a pose is no answer: the ten scans of other parts in the benchmark reach 0.66; those of the

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
+from .field import STIFF, Freedom
 from .motions import apply
 from .sketch import Plane, Sketch
 from .smooth import ROUNDS, Match, match
-from .target import Target
+from .target import Target, workers
 
 _NORMALS_AGREE = 0.6
 _ROUGH = 0.003
@@ -69,7 +70,7 @@ def facing_normals(target: Target, points: Array) -> Array:
 
 
 def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
-            rounds: int = ROUNDS) -> Evidence:
+            rounds: int = ROUNDS, freedom: Freedom = STIFF) -> Evidence:
     """Weigh a pose.
 
     Parameters
@@ -78,27 +79,23 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     pose : (4, 4), T_model_scan
     normals : (n, 3) outward normals of the sketch in model coordinates
     table : the plane beside the part, scan coordinates
-    rounds : of the smooth deformation that is allowed for, see ``match``
+    rounds, freedom : of the smooth deformation that is allowed for, see ``match``
     """
-    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds))
+    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds, freedom))
 
 
-def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: int = ROUNDS) -> Match:
+def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: int = ROUNDS,
+            freedom: Freedom = STIFF) -> Match:
     """The sketch matched with the part; see ``examine``."""
     # under large noise a smooth deformation could not be told from a wrong pose
     return match(target, apply(pose, sketch.points), normals, 2.0 * _NEAR * target.size,
-                 0 if is_rough(target, sketch) else rounds)
+                 0 if is_rough(target, sketch) else rounds, freedom)
 
 
 def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None, found: Match) -> Evidence:
     """What a match says of a pose; see ``examine``."""
     size, moved = target.size, apply(pose, sketch.points)
-    beside = _beside(target, found.points, found.nearest, found.height, found.normal)
-    agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
-    cap = max(0.008 * size, 4.0 * sketch.noise)
-    distance = np.where(agree, np.hypot(found.height, beside), cap + sketch.noise)
-    explained = agree & (distance < cap)
-    misfit = float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
+    agree, explained, misfit = _explained(target, sketch, normals, found)
     coverage, missing = _views(target, found.points[explained], normals[explained], sketch)
     pierced = 0.0
     if table is not None:
@@ -106,6 +103,21 @@ def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Pl
         pierced = float(np.mean(table.heights(in_scan) < -max(table.tolerance, 0.04 * size)))
     bent = float(np.sqrt(np.mean((moved - found.points)[agree] ** 2) * 3.0)) / size if agree.any() else 0.0
     return Evidence(float(explained.mean()), misfit, coverage, missing, pierced, bent)
+
+
+def misfit_of(target: Target, sketch: Sketch, normals: Array, found: Match) -> float:
+    """The misfit alone of the evidence that ``weigh`` gives."""
+    return _explained(target, sketch, normals, found)[2]
+
+
+def _explained(target: Target, sketch: Sketch, normals: Array, found: Match,
+               ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
+    """Which points face as the part does, which of them lie on it, and the misfit of all."""
+    beside = _beside(target, found.points, found.nearest, found.height, found.normal)
+    agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
+    cap = max(0.008 * target.size, 4.0 * sketch.noise)
+    distance = np.where(agree, np.hypot(found.height, beside), cap + sketch.noise)
+    return agree, agree & (distance < cap), float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
 
 
 def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Array, normal: Array) -> Array:
@@ -123,13 +135,13 @@ def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tup
         return 0.0, 1.0
     area_each = np.median(cKDTree(sketch.points).query(sketch.points[:500], k=2)[0][:, 1])
     reach = max(3.0 * float(area_each), 0.025 * target.size)
-    distance, index = cKDTree(points).query(samples.points, k=_AROUND, distance_upper_bound=reach)
+    distance, index = cKDTree(points).query(samples.points, k=_AROUND, distance_upper_bound=reach,
+                                            workers=workers(samples.points))
     padded = np.concatenate([normals, np.zeros((1, 3))])
     covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
-    seen = np.zeros(len(covered), dtype=bool)
+    seen, worth = np.zeros(len(covered), dtype=bool), np.where(covered, 1.0, -1.0).astype(np.float32)
     for _ in range(_MOST_VIEWS):
-        new = target.visible & ~seen
-        gain = (new & covered).sum(axis=1) - (new & ~covered).sum(axis=1).astype(float)
+        gain = target.visible @ np.where(seen, np.float32(0.0), worth)
         best = int(np.argmax(gain))
         if gain[best] <= 0.02 * len(covered):
             break
