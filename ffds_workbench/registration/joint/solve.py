@@ -19,6 +19,7 @@ from .body import add_body, body_rows, body_tells
 from .boundary import find_borders, find_near_edges
 from .correspondence import Correspondence, correspond, make_frames
 from .ends import exact_ends
+from .misfit import misfit
 from .part import JointPart
 from .problem import Problem, make_problem
 from .raster import Jet
@@ -33,6 +34,9 @@ from .trust import is_isometric, judge
 from .values import medians, tukey_means
 
 Progress = Callable[[str, float], None]
+_FIRM = 0.9
+"""Where the shape lies off all of the scan, a stage goes on while the trust in isometry falls by more than this factor:
+shapes follow it slowly."""
 _SETTLED = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
 _HARDLY_MOVES = 0.1
@@ -118,10 +122,16 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
         kept = replace(kept, across=problem.across(state.control_points, kept.across), body=None)
     state = replace(state, kept=kept)
     for _ in range(stage.iterations):
-        state = iterate(problem, stage, judge(problem, state, stage))
-        if state.last_step < stage.enough:
+        before, state = state, iterate(problem, stage, judge(problem, state, stage))
+        loosening = stage.all_points and state.trust.isometry < _FIRM * before.trust.isometry
+        if state.last_step < stage.enough and not (loosening and _is_off(problem, state)):
             break
     return state
+
+
+def _is_off(problem: Problem, state: State) -> bool:
+    """Whether the shape lies somewhere farther off the scan than its noise."""
+    return bool(misfit(problem, state.values).max() > problem.statistics.noise**2)
 
 
 def iterate(problem: Problem, stage: Stage, state: State) -> State:
