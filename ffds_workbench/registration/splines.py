@@ -7,6 +7,7 @@ spline and only the parameter has to be wrapped.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -135,6 +136,13 @@ class SplineSurface:
         bu = basis_matrix(self.knots_u, u, self.degree_u)
         bv = basis_matrix(self.knots_v, v, self.degree_v)
         return tensor_product(bu, bv, self.control_points)
+
+    def jet_on_grid(self, u: Array, v: Array, orders: Sequence[tuple[int, int]]) -> Array:
+        """Partial derivatives of ``orders`` in u and v on the grid u × v: (len(u), len(v), len(orders), dim)."""
+        most_u, most_v = np.max(orders, axis=0)
+        bu = [basis_matrix(self.knots_u, u, self.degree_u, order) for order in range(most_u + 1)]
+        bv = [basis_matrix(self.knots_v, v, self.degree_v, order) for order in range(most_v + 1)]
+        return np.stack([tensor_product(bu[du], bv[dv], self.control_points) for du, dv in orders], axis=2)
 
     def derivative(self, du: int, dv: int) -> SplineSurface:
         """The partial derivative, itself a B-spline of lower degree (NURBS Book, eq. 3.24)."""

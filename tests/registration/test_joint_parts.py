@@ -39,7 +39,8 @@ def fitted(lattices, faces, field):
     for index, face in enumerate(faces):
         u0, u1, v0, v1 = face.surface.range
         uv = np.stack(np.meshgrid(np.linspace(u0, u1, 80), np.linspace(v0, v1, 40), indexing="ij"), -1).reshape(-1, 2)
-        spans, weights = lattices.rows(index, uv)
+        spans, local = lattices.faces[index].locate(uv)
+        weights = lattices.weights(spans, local, 0, 0)
         matrix = csr_matrix((weights.ravel(), lattices.controls[spans].ravel(), np.arange(len(uv) + 1) * 16),
                             (len(uv), lattices.count))
         own = np.flatnonzero(lattices.face_of_control == index)
@@ -59,7 +60,8 @@ def test_spline_of_a_face_equals_its_rows(cylinder, lattices):
     for index, face in enumerate(cylinder.faces):
         u0, u1, v0, v1 = face.surface.range
         uv = np.random.default_rng(1).uniform([u0, v0], [u1, v1], (50, 2))
-        spans, weights = lattices.rows(index, uv)
+        spans, local = lattices.faces[index].locate(uv)
+        weights = lattices.weights(spans, local, 0, 0)
         expected = np.einsum("nc,ncx->nx", weights, points[lattices.controls[spans]])
         assert lattices.spline(index, points)(uv) == pytest.approx(expected, abs=1e-12)
 

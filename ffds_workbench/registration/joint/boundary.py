@@ -27,6 +27,8 @@ _HARDLY_MOVES = 0.2
 _SAME = 0.03
 """Movement in mm of the edges that changes nothing of where their borders are found."""
 _SHARP = 0.7
+_APART = 1e6
+"""Distance in mm between faces, so large that a place is nearest to its own face."""
 _RANKS, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
 than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
@@ -84,20 +86,18 @@ class EdgeSides:
     sharp: NDArray[np.bool_]
 
 
-def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places, distance: Array) -> EdgeSides:
-    """Sides of the nominal edges, from the nearest cells of both faces; ``distance`` (spans, k) from the border."""
+def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places) -> EdgeSides:
+    """Sides of the nominal edges, from the nearest cells of both faces."""
     signs, out = np.ones((2, len(edges.edge))), []
     still = np.zeros((lattices.count, 3))
+    centres = cells.nominal.position[cells.inside]
+    face = np.repeat(lattices.face_of_span, cells.inside.sum(axis=1))
+    # far apart by their faces, a cell of the own face is the nearest one
+    tree = cKDTree(np.column_stack([centres, _APART * face]), balanced_tree=False, compact_nodes=False)
     for k, side in enumerate((edges.first, edges.second)):
         across = np.cross(edges.direction, side.normals(still))
-        lean = np.zeros(len(side))
-        for face in np.unique(side.face):
-            spans = np.flatnonzero(lattices.face_of_span == face)
-            centres = cells.nominal.position[spans][distance[spans] > 0]
-            rows = np.flatnonzero(side.face == face)
-            if len(centres):
-                nearest = centres[cKDTree(centres).query(side.nominal[0, rows])[1]]
-                lean[rows] = np.einsum("nx,nx->n", nearest - side.nominal[0, rows], across[rows])
+        nearest = tree.query(np.column_stack([side.nominal[0], _APART * side.face]))[1]
+        lean = np.einsum("nx,nx->n", centres[nearest] - side.nominal[0], across) * (face[nearest] == side.face)
         signs[k] = np.where(np.bincount(edges.edge, weights=lean)[edges.edge] > 0, -1.0, 1.0) if len(lean) else 1.0
         out.append(signs[k][:, None] * across)
     normal = edges.first.normals(still), edges.second.normals(still)

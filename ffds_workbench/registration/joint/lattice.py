@@ -104,11 +104,10 @@ class Lattices:
         """Number of control points."""
         return len(self.face_of_control)
 
-    def rows(self, face: int, uv: Array, du: int = 0, dv: int = 0) -> tuple[Index, Array]:
-        """Spans (n,), and the weights (n, 16) of their control points that give d or a derivative at (u, v)."""
-        span, local = self.faces[face].locate(uv)
+    def weights(self, span: Index, local: Array, du: int, dv: int) -> Array:
+        """Weights (n, 16) of the control points of spans (n,) that give d or a derivative at local places (n, 2)."""
         scale = self.step[span, 0] ** -du * self.step[span, 1] ** -dv
-        return span, products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
+        return products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
 
     def spline(self, face: int, control_points: Array) -> SplineSurface:
         """The displacement of one face, (controls, 3) in mm, as a spline of its own."""

@@ -93,8 +93,7 @@ def make_places(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -
         nu, nv = lattice.spans
         u = (lattice.corner[0] + lattice.step[0] * (np.arange(nu)[:, None] + x)).ravel()
         v = (lattice.corner[1] + lattice.step[1] * (np.arange(nv)[:, None] + x)).ravel()
-        grids = np.stack([face.surface.derivative(*order).on_grid(u, v) for order in DERIVATIVES], axis=2)
-        jets.append(_by_span(grids, nu, nv, len(x)))
+        jets.append(_by_span(face.surface.jet_on_grid(u, v, DERIVATIVES), nu, nv, len(x)))
         inside.append(_by_span(inside_trims(face, u, v), nu, nv, len(x)))
     tables = np.stack([products(local[:, 0], local[:, 1], *order) for order in DERIVATIVES])
     scale = np.stack([lattices.step[:, 0] ** -du * lattices.step[:, 1] ** -dv for du, dv in DERIVATIVES], axis=1)

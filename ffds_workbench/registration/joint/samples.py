@@ -71,17 +71,17 @@ def concatenate(first: Samples, second: Samples) -> Samples:
 
 def sample(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> Samples:
     """Places at (u, v) (n, 2) on faces (n,), in the order given."""
-    n = len(face)
-    span, weights = np.zeros(n, dtype=np.intp), np.zeros((3, n, 16))
+    n, orders = len(face), ((0, 0), (1, 0), (0, 1))
+    span, local = np.zeros(n, dtype=np.intp), np.zeros((n, 2))
     nominal, outward = np.zeros((3, n, 3)), np.zeros(n)
     order = np.argsort(face, kind="stable")
     for index in np.unique(face):
         at = order[np.searchsorted(face[order], index) : np.searchsorted(face[order], index, side="right")]
-        surface = faces[index].surface
-        for k, (du, dv) in enumerate(((0, 0), (1, 0), (0, 1))):
-            span[at], weights[k, at] = lattices.rows(index, uv[at], du, dv)
-            nominal[k, at] = surface.derivative(du, dv)(uv[at])
+        span[at], local[at] = lattices.faces[index].locate(uv[at])
+        for k, (du, dv) in enumerate(orders):
+            nominal[k, at] = faces[index].surface.derivative(du, dv)(uv[at])
         outward[at] = faces[index].outward
+    weights = np.stack([lattices.weights(span, local, du, dv) for du, dv in orders])
     return Samples(np.asarray(face, dtype=np.intp), span, lattices.controls[span], weights, nominal, outward)
 
 

@@ -25,7 +25,7 @@ from .problem import Problem
 from .raster import normals
 from .state import State
 
-_POINTS = 4000
+_POINTS = 2500
 _THICK = 3.0
 """Sheets thicker than this many times the expected displacement are not taken for their far side."""
 _ROUGH = 8.0

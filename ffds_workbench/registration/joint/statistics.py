@@ -12,7 +12,7 @@ from ..splines import Array
 _NEIGHBOURS = 16
 _SLABS = (0.2, 0.4, 0.6, 0.8)
 _SLAB_POINTS = 5000
-_PROBES = 400
+_PROBES = 200
 
 
 @dataclass(frozen=True)
