@@ -19,11 +19,11 @@ _GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003, 0.003)
 _FIRST_ENDS, _COARSE = 2, 3
 """Round from which on the ends of the scan count; and rounds that are left out where a start is known, when the ends
 count from the second one on."""
-_WIDTH, _BLURRED, _OF_WIDTH = 0.006, 1.5, 0.2
+_WIDTH, _BLURRED, _OF_WIDTH = 0.01, 1.5, 0.2
 """Width within which the ends of a scan are counted, as a share of the part's size, and at least in standard deviations
 of the noise; and height, as a share of the width, up to which a deformed part is on its face."""
-_WIDTHS = (1.5, 1.0)
-"""Widths in which the ends are counted round by round: at first they may lie farther off."""
+_WIDE = 1.5
+"""Widths in which the ends are counted at first, when they may lie farther off."""
 _FOR_ENDS, _END_GATE = 1.0 / 200.0, 0.2
 """Weight of the ends for each point on a face, beyond what their own uncertainty gives them, as heights are off by what
 the polynomials cannot follow; and the least cut-off in mm for them, as each is counted from few points."""
@@ -31,8 +31,6 @@ _ON = 0.008
 """Height, as a share of the part's size, up to which a point lies on it."""
 _OFF, _LEAST_OFF = 6.0, 2e-3
 """Heights that make a point one beside the part: in their spread, and as a share of the part's size."""
-_OFF_BY = 2.0
-"""Root mean squares by which points may be off."""
 _FEWEST = 100
 _CELLS = 600
 """Pieces of the part's surface that its pose is the best fit of."""
@@ -101,7 +99,7 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
         chosen = np.isfinite(distance)
         pulls = None
         if near is not None:
-            width = _width(target, outline, _WIDTHS[min(turn - first, len(_WIDTHS) - 1)])
+            width = _width(target, outline, _WIDE if turn == first else 1.0)
             ends = find_ends(rims, border.straight, width, 4.0 * outline.noise + _OF_WIDTH * width, near)
             pulls = _pulls(ends, stretches, len(points))
         wanted = height + np.einsum("ni,ni->n", normal, seen.bent - seen.straight)
@@ -111,10 +109,10 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
         if turn == first - 1:
             turned = _far_side(target, seen.straight, facing, reach)
             facing = np.where(turned[:, None], -facing, facing)
-            border, near = _border(target, outline, pose, seen, field)
+            border, near = _border(target, outline, pose, field)
             stretches = stretches.bending(field)
         if turn >= first - 1:
-            motion = _best_motion(target, seen, nearest, chosen, turn == len(gates) - 1)
+            motion = _best_motion(target, seen, nearest, chosen)
             if motion is None:
                 break
             border, stretches = border.straightened(field).moved(motion), stretches.bending(field).moved(motion)
@@ -127,23 +125,14 @@ def _width(target: Target, outline: Outline, factor: float) -> float:
                          factor * max(_WIDTH * target.size, _BLURRED * outline.noise))
 
 
-def _border(target: Target, outline: Outline, pose: Array, seen: Places, field: Field) -> tuple[Places, Beside]:
+def _border(target: Target, outline: Outline, pose: Array, field: Field) -> tuple[Places, Beside]:
     """The points of the scan near the rims, and which of those they lie near."""
-    reach = depth_of(_width(target, outline, _WIDTHS[0]))
-    roughly, off = _affine(seen)
-    bent = apply(pose, outline.points[target.rims.near(outline.points, roughly @ pose, reach + off)])
+    bent = apply(pose, outline.points)
     straight = bent - field(bent)
+    reach = depth_of(_width(target, outline, _WIDE))
     some = target.rims.near(straight, np.eye(4), reach)
     near = beside(target.rims, straight[some], reach)
     return Places(bent[some], straight[some]), near
-
-
-def _affine(seen: Places) -> tuple[Array, float]:
-    """Map (4, 4) that takes the deformation back as far as an affine one can, and what it is off in mm."""
-    rows = np.column_stack([seen.bent, np.ones(len(seen.bent))])
-    found = np.eye(4)
-    found[:3] = np.linalg.lstsq(rows, seen.straight, rcond=None)[0].T
-    return found, _OFF_BY * float(np.sqrt(np.mean((rows @ found[:3].T - seen.straight) ** 2) * 3.0))
 
 
 def _pulls(ends: Ends, stretches: Places, count: int) -> Pulls:
@@ -166,23 +155,20 @@ def _on(target: Target, points: Array, normals: Array, reach: float) -> NDArray[
     return np.isfinite(distance) & (np.abs(target.heights(points, nearest)[0]) < _ON * target.size)
 
 
-def _best_motion(target: Target, seen: Places, nearest: NDArray[np.intp], chosen: NDArray[np.bool_], last: bool,
-                 ) -> Array | None:
-    """Motion (4, 4) that brings the deformed part nearest to the part; None of too few points.
+def _best_motion(target: Target, seen: Places, nearest: NDArray[np.intp], chosen: NDArray[np.bool_]) -> Array | None:
+    """Motion (4, 4) that brings the deformed part nearest to the part, over all of its surface; None of too few points.
 
-    The last one does so over all of the part's surface: a piece of it moves like the place nearest to it that is seen,
-    so that the whole part counts evenly, also where the scan is thin or shows one side alone.
+    A piece of surface moves like the place nearest to it that is seen: the whole part counts evenly, also where the
+    scan is thin or shows one side alone.
     """
     height, normal = target.heights(seen.straight, nearest)
     spread = 1.4826 * float(np.median(np.abs(height)))
     sure = chosen & (np.abs(height) < max(_OFF * spread, _LEAST_OFF * target.size))
     if sure.sum() < _FEWEST:
         return None
-    foot, bent = seen.straight[sure] - height[sure, None] * normal[sure], seen.bent[sure]
-    if not last:
-        return best_fit(bent, foot)
+    foot = seen.straight[sure] - height[sure, None] * normal[sure]
     middles, area = cells_of(target)
-    return best_fit(middles + (bent - foot)[cKDTree(foot).query(middles)[1]], middles, area)
+    return best_fit(middles + (seen.bent[sure] - foot)[cKDTree(foot).query(middles)[1]], middles, area)
 
 
 @once_for_target

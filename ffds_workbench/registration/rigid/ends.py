@@ -106,9 +106,9 @@ def find_ends(rims: Rims, points: Array, width: float, tolerance: float, near: B
     density = inside / (depth - width)
     gap = around / np.maximum(density, 1e-12) - width
     seen = np.flatnonzero((inside >= _FEWEST) & (strange < _STRANGE * density * width)
-                          & (gap > -_SATURATED * width))
+                          & (np.abs(gap) < _SATURATED * width))
     spread = 1.5 * width / np.maximum(density[seen], 1e-12) + (_FLOOR * width) ** 2
-    return Ends(seen, rims.middles[seen], rims.ways[seen], np.minimum(gap[seen], width), 1.0 / spread)
+    return Ends(seen, rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread)
 
 
 def depth_of(width: float) -> float:

@@ -24,8 +24,6 @@ _FEW, _MATCHED = 500, 1_000
 """Points that a pose is brought nearer with, and about how many a deformed part is matched by."""
 _POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 12_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
-_OUTLINE = 45_000
-"""Points of the scan among which the ends of a deformed part are looked for."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
 _PATCH = 60
@@ -74,7 +72,7 @@ def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
     points, outward, reach = sketch.points[some], (normals @ pose[:3, :3])[some], _WIDE * target.size
     if start is None:
         pose = refine(target, points, pose, (reach,), 8, outward)
-    outline = Outline(sketch.scan[:: 1 + len(sketch.scan) // _OUTLINE], coverage * float(target.samples.area.sum()),
+    outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
                       max(sketch.noise, _FINEST * target.size))
     return settle(target, points, pose, outward, reach, outline, None if start is None else start[some])
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from .alignment import Alignment
 from .field import SOFT, STIFF
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import angle, motion
+from .motions import motion
 from .polish import is_deformed, polish_deformed, polish_rigid
 from .proposals import QUICK, propose
 from .sketch import Plane, Sketch, find_table, sketch_of
@@ -26,15 +26,12 @@ _ROTATIONS, _TURN = 12, 0.5
 """Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
 _POOL, _POINTS, _THIRD = 24_000, 1_500, 3
 """Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
+_OUTLINE = 2
+"""Every which point tells where the scan of a deformed part ends."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 8
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
-_NEARBY = 0.1
-"""Turn in rad by which the pose of a deformed part may still change in the end: one that turns by more began at a wrong
-place, and may end at one."""
-_ROUNDS = 3
-"""Of the smooth deformation that is taken back to tell the sides."""
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
@@ -102,7 +99,7 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
               ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
     for freedom in (STIFF, SOFT):
-        matches = [matched(target.light, sketch, side.pose, side.normals, _ROUNDS, freedom) for side in sides]
+        matches = [matched(target.light, sketch, side.pose, side.normals, freedom=freedom) for side in sides]
         misfits = [misfit_of(target.light, sketch, side.normals, found)
                    for side, found in zip(sides, matches, strict=True)]
         better = int(np.argmin(misfits))
@@ -112,9 +109,8 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
         evidence = weigh(target.light, sketch, side.pose, side.normals, table, found)
         if evidence.explained < _CLEARLY_RIGHT:
             continue
-        pose = polish_deformed(target, sketch, side.pose, side.normals, evidence.coverage, found.points)
-        if angle(pose, side.pose) > _NEARBY:
-            return None
+        pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
+                               evidence.coverage, found.points)
         normals = outward(sketch, side.signs) @ pose[:3, :3].T
         if evidence.certainty < _CERTAIN:
             evidence = examine(target.light, sketch, pose, normals, table, freedom=freedom)

@@ -23,7 +23,7 @@ _ROUGH = 0.22
 _SPARSE, _ALONE = 4.0, 1.6
 """A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
 its neighbours' own are."""
-_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 300, 1.5
+_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
 """Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
 over it from which a point may be stray."""
 _DENSE = 100
