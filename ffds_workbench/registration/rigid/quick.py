@@ -12,7 +12,7 @@ from .alignment import Alignment
 from .field import SOFT, STIFF
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import motion
+from .motions import angle, motion
 from .polish import is_deformed, polish_deformed, polish_rigid
 from .proposals import QUICK, propose
 from .sketch import Plane, Sketch, find_table, sketch_of
@@ -32,6 +32,9 @@ _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 8
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
+_NEARBY = 0.1
+"""Turn in rad up to which the pose of a deformed part may change in the end: one that turns farther began at a wrong
+place, and may end at one."""
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
@@ -111,6 +114,8 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
             continue
         pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
                                evidence.coverage, found.points)
+        if angle(pose, side.pose) > _NEARBY:
+            return None
         normals = outward(sketch, side.signs) @ pose[:3, :3].T
         if evidence.certainty < _CERTAIN:
             evidence = examine(target.light, sketch, pose, normals, table, freedom=freedom)
