@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """``./ffds benchmark summary``: the README's performance section, from what the other benchmarks measured.
 
-It measures nothing. It reads ``paper.json``, ``peers.json`` and ``scaling.json`` of the same output folder, says which
-of them are missing, and writes ``performance.md``. Between the marks in the README the section is replaced.
+It measures nothing. It reads ``accuracy.json``, ``paper.json``, ``peers.json`` and ``scaling.json`` of the same output
+folder, says which of them are missing, and writes ``performance.md``. Between the marks in the README the section is
+replaced.
 """
 from __future__ import annotations
 
 import json
+import statistics
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,7 +22,10 @@ from .paper_methods import TITLES
 Progress = Callable[[str], None]
 
 START, END = "<!-- performance: ./ffds benchmark summary -->", "<!-- /performance -->"
-_SOURCES = ("paper", "peers", "scaling")
+_SOURCES = ("accuracy", "paper", "peers", "scaling")
+_KINDS = {"clean": "all views", "one-view": "one view", "one-view with normals": "one view, with normals",
+          "dirty": "holes, outliers, a table, a third of the noise shared by neighbours"}
+_PLACES = ("visible", "hidden", "edges")
 _SHEETS = {"A": "clean", "D": "dirty"}
 _METHODS = {"ffds": "ffds", "robust": "robust", "kdtree": "building a k-d tree", "read": "reading the array"}
 
@@ -36,8 +41,8 @@ def run(folder: Path, progress: Progress, readme: Path = ROOT / "README.md") -> 
     data = {name: json.loads((folder / f"{name}.json").read_text()) for name in _SOURCES
             if (folder / f"{name}.json").exists()}
     if not data:
-        raise InputError(f"{folder} holds no figures: run ./ffds benchmark paper, peers or scaling with --out {folder} "
-                         "first.")
+        raise InputError(f"{folder} holds no figures: run ./ffds benchmark accuracy, paper, peers or scaling with "
+                         f"--out {folder} first.")
     text = section(data)
     (folder / "performance.md").write_text(text + "\n")
     if readme.exists():
@@ -52,6 +57,9 @@ def section(data: dict[str, Any]) -> str:
     """The section as Markdown."""
     parts = ["Generated from these runs; all clouds are simulated, and the figures are of one machine in one run: "
              "compare ratios, not milliseconds."]
+    if "accuracy" in data:
+        parts += ["`./ffds benchmark accuracy --out DIR` deforms whole parts in known ways and measures what it wrote.",
+                  _parts(data["accuracy"]).markdown(), _bands(data["accuracy"])]
     if "paper" in data:
         parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.",
                   _paper(data["paper"]).markdown()]
@@ -66,6 +74,31 @@ def section(data: dict[str, Any]) -> str:
     if missing:
         parts.append("Not measured for this summary: " + ", ".join(missing) + ".")
     return "\n\n".join(filter(None, parts))
+
+
+def _parts(data: dict[str, Any]) -> Table:
+    rows = []
+    for kind, title in _KINDS.items():
+        cases = [case for case in data["cases"] if case["kind"] == kind]
+        done = [case for case in cases if "refused" not in case]
+        if done:
+            refused = len(cases) - len(done)
+            means = [[case[place]["mean"] for case in done] for place in _PLACES]
+            rows.append([title, f"{len(done)}, {refused} refused" if refused else f"{len(done)}",
+                         *(f"{statistics.median(values):.4f} ({max(values):.3f})" for values in means)])
+    return Table("Whole parts, mean distance from the truth in mm: the median part and the worst",
+                 ("the scan shows", "parts", *_PLACES), rows)
+
+
+def _bands(data: dict[str, Any]) -> str:
+    """How often the bands hold the truth."""
+    texts = []
+    for kind, noise in (("white", "where each point has its own noise"),
+                        ("dirty", "where neighbours share some of it")):
+        shares = [f"{name.split('/')[1]} {100 * item['share']:.0f} %" for name, item in data["bands"].items()
+                  if name.startswith(kind)]
+        texts.append(f"{noise}: {', '.join(shares)}")
+    return f"The 95 % bands hold the truth, {'; '.join(texts)}."
 
 
 def _paper(data: dict[str, Any]) -> Table:

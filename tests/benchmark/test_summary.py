@@ -20,12 +20,24 @@ def test_section_replaces_what_stands_between_the_marks(tmp_path):
     readme = tmp_path / "README.md"
     readme.write_text(f"before\n{summary.START}\nold\n{summary.END}\nafter\n")
     text = summary.run(tmp_path, lambda stage: None, readme)
-    assert "./ffds benchmark scaling" in text and "Not measured for this summary: paper, peers" in text
+    assert "./ffds benchmark scaling" in text and "Not measured for this summary: accuracy, paper, peers" in text
     whole = readme.read_text()
     assert "old" not in whole and "| ffds | 300 | 60.0 | 1.20 | 300 |" in whole
     assert whole.startswith("before\n") and whole.endswith("\nafter\n")
 
 
+def test_whole_parts_by_what_the_scan_shows():
+    def case(kind, mean):
+        return {"kind": kind, **{place: {"mean": mean} for place in ("visible", "hidden", "edges")}}
+
+    cases = [case("clean", 0.004), case("clean", 0.005), case("clean", 0.009), case("one-view", 0.006),
+             {"kind": "one-view", "refused": "nothing tells the skin"}]
+    bands = {"white/observed": {"places": 10, "share": 0.954}, "dirty/carried": {"places": 10, "share": 0.98}}
+    text = summary.section({"accuracy": {"cases": cases, "bands": bands}})
+    assert "| all views | 3 | 0.0050 (0.009) |" in text and "| one view | 1, 1 refused | 0.0060 (0.006) |" in text
+    assert "observed 95 %" in text and "carried 98 %" in text
+
+
 def test_without_figures_it_says_what_to_run(tmp_path):
-    with pytest.raises(InputError, match="benchmark paper"):
+    with pytest.raises(InputError, match="benchmark accuracy"):
         summary.run(tmp_path, lambda stage: None)
