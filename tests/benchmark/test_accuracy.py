@@ -49,6 +49,20 @@ def test_lines():
     assert observed.found == 0.96 and observed.met
 
 
+def test_who_refuses_where_nothing_tells_the_skin_is_right():
+    def line(what: str, *rows: dict) -> bool:
+        return next(item for item in lines({}, rows) if what in item.what).met
+
+    name = "/".join(map(str, accuracy_cases.WITHOUT_NORMALS))
+    untold = {"case": name, "family": "free-form-panel", "kind": "one-view"}
+    other = {**untold, "case": "free-form-panel/bend/16/one-view"}
+    why = {"refused": "The scan shows one skin of a thin sheet."}
+    assert line("though their scans tell enough", {**untold, **why}) and line("on the wrong one", {**untold, **why})
+    assert not line("though their scans tell enough", {**other, **why})
+    wrong = {**untold, "visible": {"mean": 1.7}, "gap": 0.0, "tolerance": 0.0, "topology": True, "certificate": []}
+    assert not line("on the wrong one", wrong)
+
+
 def test_speed(tmp_path):
     text = speed.run(tmp_path, lambda message: None, sizes=(20_000, 40_000), repeats=2)
     assert "robust, cylinder" in text
