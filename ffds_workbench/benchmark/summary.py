@@ -16,6 +16,7 @@ from typing import Any
 from .. import ROOT
 from ..errors import InputError
 from . import peers
+from .accuracy_cases import NOISE
 from .page import Table
 from .paper_methods import TITLES
 
@@ -58,8 +59,8 @@ def section(data: dict[str, Any]) -> str:
     parts = ["Generated from these runs; all clouds are simulated, and the figures are of one machine in one run: "
              "compare ratios, not milliseconds."]
     if "accuracy" in data:
-        parts += ["`./ffds benchmark accuracy --out DIR` deforms whole parts in known ways and measures what it wrote.",
-                  _parts(data["accuracy"]).markdown(), _bands(data["accuracy"])]
+        parts += ["`./ffds benchmark accuracy --out DIR` deforms whole parts in known ways, scans them with a noise of "
+                  f"{NOISE:g} mm, and measures what it wrote.", _parts(data["accuracy"]).markdown(), _bands(data["accuracy"])]
     if "paper" in data:
         parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.",
                   _paper(data["paper"]).markdown()]
