@@ -60,7 +60,8 @@ def section(data: dict[str, Any]) -> str:
              "compare ratios, not milliseconds."]
     if "accuracy" in data:
         parts += ["`./ffds benchmark accuracy --out DIR` deforms whole parts in known ways, scans them with a noise of "
-                  f"{NOISE:g} mm, and measures what it wrote.", _parts(data["accuracy"]).markdown(), _bands(data["accuracy"])]
+                  f"{NOISE:g} mm, and measures what it wrote.",
+                  _parts(data["accuracy"]).markdown(), _bands(data["accuracy"])]
     if "paper" in data:
         parts += ["`./ffds benchmark paper --out DIR` repeats the published comparison.",
                   _paper(data["paper"]).markdown()]
