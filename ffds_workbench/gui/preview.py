@@ -75,7 +75,7 @@ class Preview:
 
     def __init__(self, shape: Part.Shape, scan: PointCloud) -> None:
         self._part = workpiece.read(shape)
-        self._scan, self._points = scan, scan.points
+        self._scan = scan
         self._faces: dict[str, FaceOnScan] = {}
         self._sizes: dict[str, tuple[int, int]] = {}
         self._whole: WholePreview | None = None
@@ -103,12 +103,12 @@ class Preview:
 
     def _observed(self, settings: Settings) -> list[str]:
         geometries = [self._part.geometry(index) for index in range(len(self._part.faces))]
-        names = [geometries[index].name for index in observed_faces(geometries, self._points)]
+        names = [geometries[index].name for index in observed_faces(geometries, self._scan.points)]
         return [name for name in names if name not in settings.freeze]
 
     def _face_patch(self, name: str, settings: Settings, coarse: bool) -> Patch:
         if name not in self._faces:
-            self._faces[name] = FaceOnScan(self._part.geometry(self._part.index(name)), self._points)
+            self._faces[name] = FaceOnScan(self._part.geometry(self._part.index(name)), self._scan.points)
         face = self._faces[name]
         index = face.places.index
         if not len(index):
@@ -117,7 +117,7 @@ class Preview:
         every = max(1, -(-len(index) // COARSE)) if coarse else 1
         if coarse and settings.lattice == "auto" and name in self._sizes:
             settings = replace(settings, lattice=self._sizes[name])
-        found = _register(face, self._points[index[::every]], settings, coarse)
+        found = _register(face, self._scan.points[index[::every]], settings, coarse)
         if coarse and settings.lattice == "auto":
             self._sizes[name] = _size(found.displacement)
         return _patch(face, face.deviations(found.displacement, every).near(), found.displacement, found.coverage, True)

@@ -23,24 +23,24 @@ def read(path: Path) -> NDArray[np.float64]:
     data = path.read_bytes()
     count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else -1
     if len(data) == _HEADER + count * _FACET.itemsize:
-        corners = np.frombuffer(data, _FACET, count, _HEADER)["corners"].reshape(-1, 3).astype(np.float64)
+        triangles = np.frombuffer(data, _FACET, count, _HEADER)["corners"].astype(np.float64)
     elif data.lstrip()[:5].lower() == b"solid":
-        corners = _ascii(path, data)
+        triangles = _ascii(path, data)
     elif count > 0 and len(data) > _HEADER:
         raise InputError(f"The scan {path} is cut off or no STL file: it promises {count} triangles and its length "
                          f"does not fit.")
     else:
         raise InputError(f"The scan {path} is not an STL file.")
-    return _merged(corners)
+    return _merged(triangles)
 
 
-def _merged(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The different ones of the corners (3 m, 3) with unit normals, to which larger triangles contribute more: (n, 6).
+def _merged(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The different corners of triangles (m, 3, 3) with unit normals, to which larger ones contribute more: (n, 6).
 
     The order of a triangle's corners tells its side; the normals that the file holds besides are often missing.
     """
-    places, first, number = np.unique(corners, axis=0, return_index=True, return_inverse=True)
-    a, b, c = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
+    places, first, number = np.unique(triangles.reshape(-1, 3), axis=0, return_index=True, return_inverse=True)
+    a, b, c = triangles.transpose(1, 0, 2)
     with np.errstate(invalid="ignore"):  # corners that are not finite are dropped later
         normal = np.repeat(np.cross(b - a, c - a), 3, axis=0)
     total = np.stack([np.bincount(number.ravel(), normal[:, axis], len(places)) for axis in range(3)], axis=1)
@@ -54,6 +54,6 @@ def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
         raise InputError(f"The scan {path} is cut off: its STL text has no end.")
     corners = [words[1:4] for words in lines if words and words[0].lower() == "vertex"]
     try:
-        return np.array(corners, dtype=np.float64).reshape(-1, 3, 3).reshape(-1, 3)
+        return np.array(corners, dtype=np.float64).reshape(-1, 3, 3)
     except ValueError as error:
         raise InputError(f"The scan {path} is damaged: a corner is not made of three numbers.") from error

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from ..splines import Array
 from .couplings import EdgeSamples
 from .lattice import Index, Lattices
-from .raster import Places
+from .raster import Places, by_face
 from .samples import Samples, concatenate
 
 _REACH = 4.0
@@ -27,8 +27,6 @@ _HARDLY_MOVES = 0.2
 _SAME = 0.03
 """Movement in mm of the edges that changes nothing of where their borders are found."""
 _SHARP = 0.7
-_APART = 1e6
-"""Distance in mm between faces, so large that a place is nearest to its own face."""
 _RANKS, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
 than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
@@ -92,11 +90,10 @@ def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places) -> EdgeSid
     still = np.zeros((lattices.count, 3))
     centres = cells.nominal.position[cells.inside]
     face = np.repeat(lattices.face_of_span, cells.inside.sum(axis=1))
-    # far apart by their faces, a cell of the own face is the nearest one
-    tree = cKDTree(np.column_stack([centres, _APART * face]), balanced_tree=False, compact_nodes=False)
+    tree = cKDTree(by_face(centres, face), balanced_tree=False, compact_nodes=False)
     for k, side in enumerate((edges.first, edges.second)):
         across = np.cross(edges.direction, side.normals(still))
-        nearest = tree.query(np.column_stack([side.nominal[0], _APART * side.face]))[1]
+        nearest = tree.query(by_face(side.nominal[0], side.face))[1]
         lean = np.einsum("nx,nx->n", centres[nearest] - side.nominal[0], across) * (face[nearest] == side.face)
         signs[k] = np.where(np.bincount(edges.edge, weights=lean)[edges.edge] > 0, -1.0, 1.0) if len(lean) else 1.0
         out.append(signs[k][:, None] * across)

@@ -11,13 +11,12 @@ from scipy.spatial import cKDTree
 from ..splines import Array
 from .lattice import Index
 from .problem import Problem
+from .raster import by_face
 from .values import CellValues
 
 _AROUND = 15.0
 """Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
 _PATCHES = 2
-_APART = 1e6
-"""Distance in mm that keeps the spans of one face from those of another in the tree."""
 
 
 def misfit(problem: Problem, values: CellValues) -> Array:
@@ -42,12 +41,12 @@ def misfit(problem: Problem, values: CellValues) -> Array:
 
 def nearest_spans(problem: Problem, face: Index, position: Array) -> Index:
     """The span of faces (n,) whose middle is nearest to nominal places (n, 3): (n,)."""
-    return cKDTree(_places(problem)).query(np.column_stack([position, _APART * face]), workers=-1)[1]
+    return cKDTree(_places(problem)).query(by_face(position, face), workers=-1)[1]
 
 
 def _places(problem: Problem) -> Array:
-    """Middles of the spans in mm, with a fourth coordinate that parts the faces."""
-    return np.column_stack([problem.cells.nominal.position.mean(axis=1), _APART * problem.lattices.face_of_span])
+    """Middles of the spans `by_face`: (spans, 4)."""
+    return by_face(problem.cells.nominal.position.mean(axis=1), problem.lattices.face_of_span)
 
 
 def _patches(cells: Array) -> Array:

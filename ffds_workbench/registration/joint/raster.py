@@ -16,12 +16,13 @@ from scipy.spatial import cKDTree
 from ..face import FaceGeometry
 from ..splines import Array
 from ..trims import boundary_points, inside_trims
-from .lattice import Lattices, products
+from .lattice import Index, Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
 _BOUNDARY_SPACING = 0.3
 _FAR_FROM_TRIM = 3.0
+_APART = 1e6
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,12 @@ def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:
     cross = np.cross(jet.tangents[:, :, 0], jet.tangents[:, :, 1])
     area = np.sqrt(np.einsum("skx,skx->sk", cross, cross))
     return cross * (outward[:, None] / np.maximum(area, 1e-12))[:, :, None], area
+
+
+def by_face(position: Array, face: Index) -> Array:
+    """Places (n, 3) in mm with a fourth coordinate that parts their faces (n,), so that a tree finds places of the own
+    face first: (n, 4)."""
+    return np.column_stack([position, _APART * face])
 
 
 def make_places(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -> Places:
