@@ -36,6 +36,7 @@ Array = np.ndarray
 _FAMILIES = ("bracket", "rimmed-plate", "hat-channel", "pipe-on-plate", "free-form-panel")
 _FAR, _TURNED = 1.0, np.deg2rad(0.5)
 _POINTS = 360_000
+"""Of every scan, cropped or with a table: as many as a stereo camera's shot has."""
 _REPEATS = 3
 """Measurements of the downsampling before each alignment, of which the median counts: single ones differ by half."""
 
@@ -148,9 +149,10 @@ def _trials(progress: Callable[[str], None]) -> list[Trial]:
         progress(f"Scanning: {family}")
         case = make_case(family, "bend", 1, amplitude=0.0)
         target, seconds = _sampled(case.target.faces)
-        scan = _resampled(case.scan.points, np.random.default_rng(1))
-        along = scan[:, 0] + 0.4 * scan[:, 1]
-        cropped = scan[along < np.quantile(along, 0.75)]
+        points = case.scan.points
+        scan = _resampled(points, np.random.default_rng(1))
+        along = points @ (1.0, 0.4, 0.0)
+        cropped = _resampled(points[along < np.quantile(along, 0.75)], np.random.default_rng(1))
         on_table = _on_table(scan, target, case.part.views.mean(axis=0))
         bent = make_case(family, "bend", 1, amplitude=5.0)
         bent_target, bent_seconds = _sampled(bent.target.faces)
@@ -171,22 +173,22 @@ def _best_pose(case: Case) -> Array:
 
 
 def _resampled(scan: Array, rng: np.random.Generator) -> Array:
-    """As many points as a stereo camera's shot, drawn with a jitter of half the scan's noise."""
+    """Points of a scan, drawn in random order with a jitter of half the scan's noise."""
     chosen = scan[rng.integers(0, len(scan), _POINTS)]
     return chosen + rng.normal(0.0, 0.06, chosen.shape)
 
 
 def _on_table(scan: Array, target: Target, up: Array, share: float = 0.6) -> Array:
-    """The scan with a table under the part that carries a share of all points and lies in the part's shadow nowhere."""
+    """Part of the scan, with a table under it that carries a share of all points and has none in the part's shadow."""
     rng = np.random.default_rng(2)
     up = up / np.linalg.norm(up)
     across = np.linalg.svd(up[None])[2][1:]
-    count = int(len(scan) * share / (1.0 - share))
+    count = int(share * len(scan))
     place = target.centre @ across.T + rng.uniform(-1.0, 1.0, (3 * count, 2)) * target.size
     shadow = cKDTree(target.samples.points @ across.T).query(place, distance_upper_bound=target.spacing)[0]
     place = place[~np.isfinite(shadow)][:count]
     height = (target.samples.points @ up).min() + rng.normal(0.0, 0.13, len(place))
-    return np.concatenate([scan, place @ across + height[:, None] * up])
+    return np.concatenate([scan[count:], place @ across + height[:, None] * up])
 
 
 def _symmetric() -> Trial:

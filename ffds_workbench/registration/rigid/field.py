@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..splines import Array
-from .fine import tukey
+from .fine import quantile, tukey
 
 _STRAIN_POINTS = 200
 _LEAST = 1e-6
@@ -65,7 +65,7 @@ class Pulls:
         """(k,), with what is left of each in mm and the standard deviation of the points in mm."""
         if not len(left):
             return left
-        cutoff = max(4.0 * 1.4826 * float(np.median(np.abs(left))), self.cutoff)
+        cutoff = max(4.0 * 1.4826 * quantile(np.abs(left), 0.5), self.cutoff)
         return self.share * spread**2 * self.weight * tukey(left, cutoff)
 
 
@@ -149,7 +149,7 @@ def fit_field(points: Array, normal: Array, wanted: Array, left: Array, chosen: 
         strain = field.strain(points[some], tangents[some])
         fixed += freedom.stretch**2 * count / len(some) * (strain.T @ strain)
     for _ in range(_ROUNDS):
-        spread = max(1.4826 * float(np.median(np.abs(left[:count][chosen]))), _LEAST * size)
+        spread = max(1.4826 * quantile(np.abs(left[:count][chosen]), 0.5), _LEAST * size)
         weight = chosen * tukey(left[:count], max(4.0 * spread, gate))
         ridge = freedom.ridge * weight.sum() / 30.0 + 1e-12
         if pulls is not None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..splines import Array
-from .motions import apply, step
+from .motions import apply, step, twist_rows
 from .target import Target
 
 _MOST, _SETTLE = 0.85, 4.0
@@ -24,6 +24,12 @@ def tukey(residual: Array, cutoff: float | Array) -> Array:
     """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""
     ratio = residual / cutoff
     return np.where(np.abs(ratio) < 1.0, (1.0 - ratio * ratio) ** 2, 0.0)
+
+
+def quantile(values: Array, share: float) -> float:
+    """The value (n > 0,) below which the share of them lies, always one of them: in linear time."""
+    rank = int(share * (len(values) - 1))
+    return float(np.partition(values, rank)[rank])
 
 
 def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12,
@@ -78,7 +84,7 @@ def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], gate: flo
     gate : in mm, the largest cut-off of the weights
     """
     height, normal = target.heights(points, nearest)
-    cutoff = float(np.clip(_SETTLE * np.quantile(np.abs(height), _MOST), 1e-3 * gate, gate))
+    cutoff = min(max(_SETTLE * quantile(np.abs(height), _MOST), 1e-3 * gate), gate)
     beyond, outwards = target.overshoot(points, nearest, gate)
     out = np.flatnonzero(beyond > 0)
     weight = np.concatenate([tukey(height, cutoff), tukey(beyond[out], gate)])
@@ -94,7 +100,7 @@ def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: 
     it makes at half the part's size.
     """
     scale = np.array([2.0 / size] * 3 + [1.0] * 3)
-    jacobian = np.concatenate([np.cross(arm, normal), normal], axis=1) * scale
+    jacobian = twist_rows(arm, normal) * scale
     matrix = (jacobian * weight[:, None]).T @ jacobian
     matrix += np.eye(6) * (1e-6 * weight.sum() + 1e-12)
     return np.asarray(scale * np.linalg.solve(matrix, -jacobian.T @ (weight * height)))

@@ -46,6 +46,17 @@ def step(twists: Array, centre: Array) -> Array:
     return motion(rotation, centre + twists[..., 3:] - turned)
 
 
+def twist_rows(arm: Array, direction: Array) -> Array:
+    """How far points move along directions (…, 3) by each of the six parts of a twist: (…, 6).
+
+    Parameters
+    ----------
+    arm : (…, 3) of the points from the centre that the twist turns about
+    """
+    (x, y, z), (a, b, c) = np.moveaxis(arm, -1, 0), np.moveaxis(direction, -1, 0)
+    return np.stack([y * c - z * b, z * a - x * c, x * b - y * a, a, b, c], axis=-1)
+
+
 def angle(a: Array, b: Array) -> Array:
     """Angle in rad between the rotations of poses a and b (broadcast over leading axes)."""
     trace = np.einsum("...ij,...ij->...", a[..., :3, :3], b[..., :3, :3])

@@ -12,7 +12,7 @@ from ..splines import Array
 from .deformed import Outline, settle
 from .ends import Ends, depth_of, find_ends, width_of_ends
 from .fine import gauss_newton, refine, tukey
-from .motions import apply, step
+from .motions import apply, step, twist_rows
 from .search import field_of
 from .sketch import Sketch, thin
 from .target import Target, once_for_target, workers
@@ -21,9 +21,11 @@ from .verify import is_rough
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
 _FEW, _MATCHED = 500, 1_000
-"""Points that a pose is brought nearer with, and about how many a deformed part is matched by."""
+"""Points that a pose is brought nearer with, and about how many one of a deformed part."""
 _POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 12_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
+_FIRST = 4
+"""Every which of them is enough for the first round."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
 _PATCH = 60
@@ -68,13 +70,13 @@ def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
                     start: Array | None = None) -> Array:
     """The pose that fits all of a deformed part best; ``start`` is where the points nearly lie without the deformation,
     (n, 3) in model coordinates, if known."""
-    some = slice(None, None, max(1, len(normals) // _MATCHED))
-    points, outward, reach = sketch.points[some], (normals @ pose[:3, :3])[some], _WIDE * target.size
+    outward, reach = normals @ pose[:3, :3], _WIDE * target.size
     if start is None:
-        pose = refine(target, points, pose, (reach,), 8, outward)
+        some = slice(None, None, max(1, len(normals) // _MATCHED))
+        pose = refine(target, sketch.points[some], pose, (reach,), 8, outward[some])
     outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
                       max(sketch.noise, _FINEST * target.size))
-    return settle(target, points, pose, outward, reach, outline, None if start is None else start[some])
+    return settle(target, sketch.points, pose, outward, reach, outline, start)
 
 
 def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:
@@ -98,13 +100,13 @@ def polish_rigid(target: Target, sketch: Sketch, pose: Array, coverage: float) -
     chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
     points, share = points[chosen], len(sketch.pool) / len(looked_at)
     near = looked_at
-    for width, most in ((max(wide, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
+    for width, most, every in ((max(wide, narrow), _NEAR_RIMS // 3, _FIRST), (narrow, _NEAR_RIMS, 1)):
         near = near[target.rims.near(near, pose, depth_of(width))]
         some = near[:: 1 + len(near) // most]
         ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
         # each stands for as many points of the scan as one on a face does
-        weight = ends.weight * noise**2 * share * len(near) / max(len(some), 1)
-        pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
+        weight = ends.weight * noise**2 * share / every * len(near) / max(len(some), 1)
+        pose = _fit(target, points[::every], nearest[::every], pose, replace(ends, weight=weight))
     return pose
 
 
@@ -123,7 +125,7 @@ def _telling(target: Target, points: Array, count: int) -> NDArray[np.intp]:
     nearest = field(points, None)
     normal = field.normals[nearest]
     arm = (points - target.centre) * (2.0 / target.size)
-    row = np.concatenate([np.cross(arm, normal), normal], axis=1)
+    row = twist_rows(arm, normal)
     inverse = np.linalg.inv(row.T @ row + _LEAST_HELD * len(row) * np.eye(6))
     count_of = np.bincount(nearest, minlength=len(field.points))
     leverage = np.bincount(nearest, np.einsum("ni,ni->n", row @ inverse, row), len(count_of)) / np.maximum(count_of, 1)

@@ -12,7 +12,7 @@ from .alignment import Alignment
 from .field import SOFT, STIFF
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import angle, motion
+from .motions import angle, apply, motion
 from .polish import is_deformed, polish_deformed, polish_rigid
 from .proposals import QUICK, propose
 from .sketch import Plane, Sketch, find_table, sketch_of
@@ -24,14 +24,16 @@ from .verify import examine, is_rough, matched, misfit_of, weigh
 _FEWEST = 50
 _ROTATIONS, _TURN = 12, 0.5
 """Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
-_POOL, _POINTS, _THIRD = 24_000, 1_500, 3
+_POOL, _POINTS, _EVERY = 24_000, 1_500, 3
 """Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
 _OUTLINE = 2
 """Every which point tells where the scan of a deformed part ends."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
-_GATE, _STEPS = 0.08, 8
+_GATE, _STEPS = 0.08, 6
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
+_LOOKS = 5
+"""Rounds of the deformation that tells the sides."""
 _NEARBY = 0.1
 """Turn in rad up to which the pose of a deformed part may change in the end: one that turns farther began at a wrong
 place, and may end at one."""
@@ -51,7 +53,7 @@ def quickly(target: Target, scan: Array, scale: float, generator: np.random.Gene
         table = find_table(whole, target.shadow, generator)
     if table is not None:
         whole = sketch_of(scan[table.heights(scan) > table.tolerance], generator, _POINTS, _POOL, 1)
-    sketch = whole.every(_THIRD)
+    sketch = whole.every(_EVERY)
     if len(sketch.points) < _FEWEST or is_rough(target, sketch):
         return None
     centre = sketch.points.mean(axis=0)
@@ -61,7 +63,7 @@ def quickly(target: Target, scan: Array, scale: float, generator: np.random.Gene
     sides = [_refined(target, sketch, candidates.poses[0], signs)
              for signs in (candidates.signs[0], -candidates.signs[0])]
     return (_undeformed(target, sketch, table, sides, scale)
-            or _deformed(target, sketch, table, sides, scale))
+            or _deformed(target, sketch, table, sides, scale, whole))
 
 
 @dataclass(frozen=True)
@@ -85,8 +87,10 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
     """The answer of a pose at which the scan lies on the part as it is."""
     clear: list[Verified] = []
     for side in sides:
+        if is_deformed(target, sketch, side.pose, side.normals):
+            continue
         normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
-        if turned >= TURNED or is_deformed(target, sketch, side.pose, normals):
+        if turned >= TURNED:
             continue
         evidence = examine(target.light, sketch, side.pose, normals, table, rounds=0)
         if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS:
@@ -99,10 +103,13 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
 
 
 def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
-              ) -> Alignment | None:
-    """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other."""
+              whole: Sketch) -> Alignment | None:
+    """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other.
+
+    In the end all points of the ``whole`` sketch count.
+    """
     for freedom in (STIFF, SOFT):
-        matches = [matched(target.light, sketch, side.pose, side.normals, freedom=freedom) for side in sides]
+        matches = [matched(target.light, sketch, side.pose, side.normals, _LOOKS, freedom) for side in sides]
         misfits = [misfit_of(target.light, sketch, side.normals, found)
                    for side, found in zip(sides, matches, strict=True)]
         better = int(np.argmin(misfits))
@@ -112,8 +119,9 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
         evidence = weigh(target.light, sketch, side.pose, side.normals, table, found)
         if evidence.explained < _CLEARLY_RIGHT:
             continue
-        pose = polish_deformed(target, replace(sketch, pool=sketch.pool[::_OUTLINE]), side.pose, side.normals,
-                               evidence.coverage, found.points)
+        moved, normals = apply(side.pose, whole.points), outward(whole, side.signs) @ side.pose[:3, :3].T
+        pose = polish_deformed(target, replace(whole, pool=whole.pool[::_OUTLINE]), side.pose, normals,
+                               evidence.coverage, moved - found.field(moved))
         if angle(pose, side.pose) > _NEARBY:
             return None
         normals = outward(sketch, side.signs) @ pose[:3, :3].T

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .motions import angle, apply, shift, step
+from .motions import angle, apply, shift, step, twist_rows
 from .target import Target, once_for_target
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
@@ -122,7 +122,7 @@ def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Se
         distance = np.einsum("kmi,kmi->km", offset, offset)
         weight = (gate**2 / (gate**2 + distance)) ** 2 * (0.02 + agreement**2)
         height = np.einsum("kmi,kmi->km", normal, offset)
-        jacobian = np.concatenate([np.cross(moved - field.centre, normal), normal], axis=2) * scale
+        jacobian = twist_rows(moved - field.centre, normal) * scale
         weighted = jacobian * weight[:, :, None]
         matrix = np.swapaxes(weighted, 1, 2) @ jacobian
         right = -np.einsum("kmi,km->ki", weighted, height)

@@ -8,6 +8,7 @@ from scipy.sparse import coo_matrix
 from scipy.spatial import cKDTree
 
 from ..splines import Array
+from .target import workers
 
 _SURE = 0.6
 """Cosine below which two neighbours say nothing about each other's side."""
@@ -58,7 +59,7 @@ def _links(points: Array, normals: Array, neighbours: int) -> tuple[NDArray[np.i
     angle; here n is first reflected along the step e, n·n' − 2 (n·e)(n'·e), as a surface does that turns by an arc
     (König and Gumhold, Consistent propagation of normal orientations in point clouds, 2009).
     """
-    distance, index = cKDTree(points).query(points, k=min(neighbours, len(points)))
+    distance, index = cKDTree(points).query(points, k=min(neighbours, len(points)), workers=workers(points))
     length, index = distance[:, 1:], index[:, 1:]
     theirs, step = normals.take(index, axis=0), points.take(index, axis=0) - points[:, None]
     dot, rise = ((values @ normals[:, :, None])[:, :, 0] for values in (theirs, step))

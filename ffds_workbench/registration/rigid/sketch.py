@@ -26,6 +26,8 @@ its neighbours' own are."""
 _OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
 """Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
 over it from which a point may be stray."""
+_ALMOST = 1.15
+"""So many times as many points are as many."""
 _DENSE = 100
 """Cells per point up to which a table of all cells is faster than to sort the points."""
 
@@ -103,7 +105,7 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
 
 def thin(points: Array, count: int) -> NDArray[np.intp]:
     """Indices of about ``count`` points, one per voxel of a size found by bisection."""
-    if len(points) <= count:
+    if len(points) <= _ALMOST * count:
         return np.arange(len(points))
     low, high = 0.0, float(np.ptp(points, axis=0).max())
     base = np.ascontiguousarray((points - points.min(axis=0)).T)
@@ -111,7 +113,7 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
     probe = high / np.sqrt(count)
     for _ in range(12):
         chosen = _first_of_each((base * (1.0 / probe)).astype(np.int64))
-        if 0.85 * count <= len(chosen) <= 1.15 * count:
+        if count <= _ALMOST * len(chosen) and len(chosen) <= _ALMOST * count:
             break
         low, high = (probe, high) if len(chosen) > count else (low, probe)
         probe *= np.sqrt(len(chosen) / count)
@@ -148,7 +150,7 @@ def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> ND
     farthest = distance[:, k - 1]
     among = farthest < _SPARSE * usual
     doubtful = np.flatnonzero(among & (farthest > _THIN * usual))
-    theirs = tree.query(tree.data[index[doubtful, 1:k:_EVERY]], k=k)[0][:, :, -1]
+    theirs = tree.query(tree.data[index[doubtful, 1:k:_EVERY]], k=k, workers=-1)[0][:, :, -1]
     among[doubtful] = farthest[doubtful] < _ALONE * np.median(theirs, axis=1)
     return among
 

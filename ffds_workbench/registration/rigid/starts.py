@@ -2,6 +2,8 @@
 """Where the search for a pose starts."""
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -37,6 +39,7 @@ def starts_around(target: Target, sketch: Sketch, pose: Array) -> Array:
     return np.concatenate([motion(rotations, place + shift - rotations @ place) for shift in shifts]) @ pose
 
 
+@cache
 def turns_up_to(largest: float, count: int) -> Array:
     """No turn, and turns spread evenly over those of up to ``largest`` rad; (about count, 3, 3)."""
     share = (largest - np.sin(largest)) / np.pi

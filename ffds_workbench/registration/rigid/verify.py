@@ -139,9 +139,9 @@ def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tup
                                             workers=workers(samples.points))
     padded = np.concatenate([normals, np.zeros((1, 3))])
     covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
-    seen, worth = np.zeros(len(covered), dtype=bool), np.where(covered, 1.0, -1.0).astype(np.float32)
+    seen, worth = np.zeros(len(covered), dtype=bool), np.where(covered, np.float32(1.0), np.float32(-1.0))
     for _ in range(_MOST_VIEWS):
-        gain = target.visible @ np.where(seen, np.float32(0.0), worth)
+        gain = target.sees @ np.where(seen, np.float32(0.0), worth)
         best = int(np.argmax(gain))
         if gain[best] <= 0.02 * len(covered):
             break
