@@ -32,8 +32,8 @@ _ON = 0.008
 _OFF, _LEAST_OFF = 6.0, 2e-3
 """Heights that make a point one beside the part: in their spread, and as a share of the part's size."""
 _FEWEST = 100
-_FEW = 500
-"""About how many points are matched in all rounds but the last."""
+_FEW = 1_000
+"""About how many points are matched in all rounds but the last, and half as many where a start is known."""
 _CELLS = 600
 """Pieces of the part's surface that its pose is the best fit of."""
 
@@ -98,9 +98,9 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
     seen = Places(bent, bent if start is None else start)
     gates, first = (_GATES, _FIRST_ENDS) if start is None else (_GATES[_COARSE:], 1)
     border, stretches = Places(outline.points[:0], outline.points[:0]), Places(rims.middles, rims.middles)
-    near = None
+    near, every = None, max(1, round(len(points) / (_FEW if start is None else _FEW // 2)))
     for turn, gate in enumerate(gates):
-        some = slice(None) if turn == len(gates) - 1 else slice(None, None, max(1, round(len(points) / _FEW)))
+        some = slice(None) if turn == len(gates) - 1 else slice(None, None, every)
         looked = seen.every(some)
         distance, nearest = target.nearest(looked.straight, facing[some], reach)
         height, normal = target.heights(looked.straight, nearest)

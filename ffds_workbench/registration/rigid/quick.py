@@ -30,7 +30,7 @@ _OUTLINE = 2
 """Every which point tells where the scan of a deformed part ends."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
-_GATE, _STEPS = 0.08, 6
+_GATE, _STEPS = 0.08, 5
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
 _LOOKS = 5
 """Rounds of the deformation that tells the sides."""
@@ -87,7 +87,7 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
     """The answer of a pose at which the scan lies on the part as it is."""
     clear: list[Verified] = []
     for side in sides:
-        if is_deformed(target, sketch, side.pose, side.normals):
+        if is_deformed(target.light, sketch, side.pose, side.normals):
             continue
         normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
         if turned >= TURNED:

@@ -6,6 +6,7 @@ The normals of one connected piece of surface are turned to one side; which side
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +52,11 @@ class Sketch:
     noise: float
     pool: Array
     scan: Array
+
+    @cached_property
+    def spacing(self) -> float:
+        """Median distance in mm between neighbouring points."""
+        return float(np.median(cKDTree(self.points).query(self.points[:_USUAL], k=2)[0][:, 1]))
 
     def every(self, step: int) -> Sketch:
         """The same of fewer points."""

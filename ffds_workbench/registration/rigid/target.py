@@ -30,9 +30,6 @@ _TURN = 0.35
 """Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
 _TURN_LENGTH = 0.04
 """A normal turned by 1 rad counts as this share of the part's size in the search for the nearest sample."""
-_ANY_NEAR = 1.0
-"""A sample may be farther than the nearest one by this share: heights over samples side by side are the same. One in
-thirty is not the nearest then, and the search takes three quarters of the time."""
 _FACING = 0.3
 """Cosine below which a sample does not face the way a point's normal does."""
 _GRAZING = 0.15
@@ -128,7 +125,7 @@ class Target:
             distance, index = self.tree.query(points, distance_upper_bound=reach, workers=workers(points))
             return distance, np.where(np.isfinite(distance), index, 0)
         place = np.hstack([points, self._turn_length * normals])
-        index = self._sided_tree.query(place, eps=_ANY_NEAR, distance_upper_bound=np.hypot(reach, self._turn_length),
+        index = self._sided_tree.query(place, distance_upper_bound=np.hypot(reach, self._turn_length),
                                         workers=workers(points))[1]
         index = np.where(index < len(self.samples.area), index, 0)
         distance = np.linalg.norm(points - self.samples.points[index], axis=1)

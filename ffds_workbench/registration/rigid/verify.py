@@ -133,8 +133,7 @@ def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tup
     samples = target.even
     if len(points) < 12:
         return 0.0, 1.0
-    area_each = np.median(cKDTree(sketch.points).query(sketch.points[:500], k=2)[0][:, 1])
-    reach = max(3.0 * float(area_each), 0.025 * target.size)
+    reach = max(3.0 * sketch.spacing, 0.025 * target.size)
     distance, index = cKDTree(points).query(samples.points, k=_AROUND, distance_upper_bound=reach,
                                             workers=workers(samples.points))
     padded = np.concatenate([normals, np.zeros((1, 3))])
