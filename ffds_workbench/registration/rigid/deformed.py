@@ -32,8 +32,6 @@ _ON = 0.008
 _OFF, _LEAST_OFF = 6.0, 2e-3
 """Heights that make a point one beside the part: in their spread, and as a share of the part's size."""
 _FEWEST = 100
-_FEW = 1_000
-"""About how many points are matched in all rounds but the last, and half as many where a start is known."""
 _CELLS = 600
 """Pieces of the part's surface that its pose is the best fit of."""
 
@@ -60,10 +58,6 @@ class Places:
 
     bent: Array
     straight: Array
-
-    def every(self, some: slice) -> Places:
-        """Some of them."""
-        return Places(self.bent[some], self.straight[some])
 
     def moved(self, motion: Array) -> Places:
         """After the scan has moved by (4, 4)."""
@@ -98,20 +92,18 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
     seen = Places(bent, bent if start is None else start)
     gates, first = (_GATES, _FIRST_ENDS) if start is None else (_GATES[_COARSE:], 1)
     border, stretches = Places(outline.points[:0], outline.points[:0]), Places(rims.middles, rims.middles)
-    near, every = None, max(1, round(len(points) / (_FEW if start is None else _FEW // 2)))
+    near = None
     for turn, gate in enumerate(gates):
-        some = slice(None) if turn == len(gates) - 1 else slice(None, None, every)
-        looked = seen.every(some)
-        distance, nearest = target.nearest(looked.straight, facing[some], reach)
-        height, normal = target.heights(looked.straight, nearest)
+        distance, nearest = target.nearest(seen.straight, facing, reach)
+        height, normal = target.heights(seen.straight, nearest)
         chosen = np.isfinite(distance)
         pulls = None
         if near is not None:
             width = _width(target, outline, _WIDE if turn == first else 1.0)
             ends = find_ends(rims, border.straight, width, 4.0 * outline.noise + _OF_WIDTH * width, near)
-            pulls = _pulls(ends, stretches, len(height))
-        wanted = height + np.einsum("ni,ni->n", normal, looked.bent - looked.straight)
-        field = fit_field(looked.bent, normal, wanted, height, chosen, target.samples.tangents[nearest], gate * size,
+            pulls = _pulls(ends, stretches, len(points))
+        wanted = height + np.einsum("ni,ni->n", normal, seen.bent - seen.straight)
+        field = fit_field(seen.bent, normal, wanted, height, chosen, target.samples.tangents[nearest], gate * size,
                           size, SOFT, pulls)
         seen = seen.straightened(field)
         if turn == first - 1:
@@ -120,7 +112,7 @@ def settle(target: Target, points: Array, pose: Array, normals: Array, reach: fl
             border, near = _border(target, outline, pose, field)
             stretches = stretches.bending(field)
         if turn >= first - 1:
-            motion = _best_motion(target, seen.every(some), nearest, chosen)
+            motion = _best_motion(target, seen, nearest, chosen)
             if motion is None:
                 break
             border, stretches = border.straightened(field).moved(motion), stretches.bending(field).moved(motion)

@@ -24,8 +24,6 @@ _FEW, _MATCHED = 500, 1_000
 """Points that a pose is brought nearer with, and about how many one of a deformed part."""
 _POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 12_000
 """Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
-_FIRST = 4
-"""Every which of them is enough for the first round."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
 _PATCH = 60
@@ -100,13 +98,13 @@ def polish_rigid(target: Target, sketch: Sketch, pose: Array, coverage: float) -
     chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
     points, share = points[chosen], len(sketch.pool) / len(looked_at)
     near = looked_at
-    for width, most, every in ((max(wide, narrow), _NEAR_RIMS // 3, _FIRST), (narrow, _NEAR_RIMS, 1)):
+    for width, most in ((max(wide, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
         near = near[target.rims.near(near, pose, depth_of(width))]
         some = near[:: 1 + len(near) // most]
         ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
         # each stands for as many points of the scan as one on a face does
-        weight = ends.weight * noise**2 * share / every * len(near) / max(len(some), 1)
-        pose = _fit(target, points[::every], nearest[::every], pose, replace(ends, weight=weight))
+        weight = ends.weight * noise**2 * share * len(near) / max(len(some), 1)
+        pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
     return pose
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,8 +26,6 @@ _ROTATIONS, _TURN = 12, 0.5
 """Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
 _POOL, _POINTS, _EVERY = 24_000, 1_500, 3
 """Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
-_OUTLINE = 2
-"""Every which point tells where the scan of a deformed part ends."""
 _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 5
@@ -120,8 +118,7 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
         if evidence.explained < _CLEARLY_RIGHT:
             continue
         moved, normals = apply(side.pose, whole.points), outward(whole, side.signs) @ side.pose[:3, :3].T
-        pose = polish_deformed(target, replace(whole, pool=whole.pool[::_OUTLINE]), side.pose, normals,
-                               evidence.coverage, moved - found.field(moved))
+        pose = polish_deformed(target, whole, side.pose, normals, evidence.coverage, moved - found.field(moved))
         if angle(pose, side.pose) > _NEARBY:
             return None
         normals = outward(sketch, side.signs) @ pose[:3, :3].T
