@@ -58,7 +58,7 @@ class FrontLayout:
         return result
 
     def rows(self, flat: Array, number: int) -> Array:
-        """Of one front as a view, (k, k + b) in Fortran's order."""
+        """The rows of one front's own nodes as a view, (k, k + b) in Fortran's order."""
         return flat[self.offset[number] : self.offset[number + 1]].reshape(self.own[number], -1, order="F")
 
 

@@ -27,7 +27,8 @@ def tukey(residual: Array, cutoff: float | Array) -> Array:
 
 
 def quantile(values: Array, share: float) -> float:
-    """The value (n > 0,) below which the share of them lies, always one of them: in linear time."""
+    """One of the values (n > 0,), below which the share of them lies: numpy's method "lower", whose own function takes
+    ten times as long for a few hundred of them."""
     rank = int(share * (len(values) - 1))
     return float(np.partition(values, rank)[rank])
 

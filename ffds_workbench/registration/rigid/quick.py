@@ -104,7 +104,7 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
               whole: Sketch) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other.
 
-    In the end all points of the ``whole`` sketch count.
+    ``whole`` is the sketch before it was thinned: all of its points count for the pose.
     """
     for freedom in (STIFF, SOFT):
         matches = [matched(target.light, sketch, side.pose, side.normals, _LOOKS, freedom) for side in sides]
