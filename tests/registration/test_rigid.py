@@ -20,9 +20,9 @@ from ffds_workbench import api
 from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.simulation import target_of as sensor_target_of
 from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
+from ffds_workbench.registration.rigid.deformation import Deformation, space_of
 from ffds_workbench.registration.rigid.deformed import cells_of
-from ffds_workbench.registration.rigid.ends import find_ends
-from ffds_workbench.registration.rigid.field import Field
+from ffds_workbench.registration.rigid.ends import Ends, beside, find_ends
 from ffds_workbench.registration.rigid.motions import angle, apply, best_fit, difference, motion, shift
 from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
@@ -128,14 +128,21 @@ def test_normals_of_a_thin_sheet_keep_their_side_around_its_rim():
         assert flat.sum() > 500 and abs(np.mean(side > 0) - 0.5) > 0.47     # noise turns single ones
 
 
+def ends_of(points: np.ndarray, reach: float, noise: float) -> Ends:
+    """Of a scan of a plate of 60 × 40 × 3 mm."""
+    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
+    row, entry = beside(rims, points, reach)
+    return find_ends(rims, points[row], entry, reach, noise, 0.5)
+
+
 @pytest.mark.parametrize(("noise", "shift_of_scan"), [(0.0, 0.15), (0.1, 0.15), (0.1, -0.2)])
 def test_ends_of_a_scan_are_found_however_noise_blurs_them(noise, shift_of_scan):
-    """The top of a plate alone, 20 points per mm²: 1.5 · width / (density · length) is (0.03 mm)² on its 60 mm."""
-    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
+    """The top of a plate alone, 20 points per mm²: a stretch of 2 mm is known to 0.05 mm beside the noise's 0.1 mm, of
+    which it takes off what the fourth outermost point lies out."""
     rng = np.random.default_rng(0)
     top = np.column_stack([rng.uniform(0, 60, 48_000), rng.uniform(0, 40, 48_000), np.full(48_000, 3.0)])
     top[:, 1] += shift_of_scan
-    ends = find_ends(rims, top + rng.normal(0.0, noise, top.shape), 0.6, 0.5)
+    ends = ends_of(top + rng.normal(0.0, noise, top.shape), 0.6, max(noise, 0.01))
     for side in (1.0, -1.0):
         mine = ends.outwards[:, 1] * side > 0.99
         assert mine.sum() > 10
@@ -153,38 +160,80 @@ def test_cells_stand_for_the_surface_evenly():
     assert second == pytest.approx(exact, rel=5e-3)
 
 
-def test_points_near_a_rim_are_found_without_a_search():
-    """None within the reach of the tree is left out."""
+def test_nearest_point_of_the_rims_is_looked_up():
+    """To within the voxel's diagonal, an eightieth of 60 mm · √3, and none where 8 % of 60 mm are far off."""
     rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
-    points = np.random.default_rng(3).uniform((-5, -5, -5), (65, 45, 8), (5_000, 3))
-    for reach in (0.5, 4.0):
-        within = np.flatnonzero(rims.tree.query(points)[0] < reach)
-        assert np.isin(within, rims.near(points, np.eye(4), reach)).all()
+    points = np.random.default_rng(3).uniform((-9, -9, -9), (69, 49, 12), (5_000, 3))
+    exact, found = rims.tree.query(points)[0], rims.nearest(points, np.eye(4))
+    near, diagonal = found >= 0, 60.0 / 80.0 * np.sqrt(3.0)
+    assert (np.linalg.norm(points[near] - rims.points[found[near]], axis=1) < exact[near] + diagonal).all()
+    assert near[exact < 4.8 - diagonal].all() and not near[exact > 4.8 + diagonal].any()
 
 
 def test_a_wall_that_is_seen_is_no_end():
     """Beside a wall that the scan shows, points below the face would count as the face going on."""
-    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
     rng = np.random.default_rng(0)
     top = np.column_stack([rng.uniform(0, 60, 48_000), rng.uniform(0, 40, 48_000), np.full(48_000, 3.0)])
     wall = np.column_stack([rng.uniform(0, 60, 3600), np.full(3600, 40.0), rng.uniform(0, 3, 3600)])
-    ends = find_ends(rims, np.concatenate([top, wall]), 0.3, 0.5)
+    ends = ends_of(np.concatenate([top, wall]), 0.3, 0.01)
     assert not ((ends.places[:, 1] > 39.9) & (ends.outwards[:, 1] > 0.99)).any()
     assert ((ends.places[:, 1] < 0.1) & (ends.outwards[:, 1] < -0.99)).any()
 
 
-def test_strain_of_a_field_is_that_of_its_gradient():
-    """A field with d = A x + b: the strain is the symmetric part of A in the tangent plane; a turn has none."""
+def test_a_stretch_unlike_its_neighbours_is_no_end():
+    """A notch of 2 mm in the scan, where a clamp hid the part: no end is told in it."""
     rng = np.random.default_rng(0)
-    points, matrix = rng.normal(size=(20, 3)), rng.normal(size=(3, 3))
-    still = Field.still(points, 2.0, 2)
-    frames = np.linalg.qr(rng.normal(size=(20, 3, 3)))[0].transpose(0, 2, 1)[:, :2]
-    for gradient in (matrix, matrix - matrix.T):
-        wanted = np.linalg.lstsq(still.monomials(points), points @ gradient.T, rcond=None)[0]
-        strain = (still.strain(points, frames) @ wanted.ravel()).reshape(3, 20)
-        local = frames @ (0.5 * (gradient + gradient.T)) @ frames.transpose(0, 2, 1)
-        expected = np.stack([local[:, 0, 0], local[:, 1, 1], np.sqrt(2.0) * local[:, 0, 1]])
-        assert np.abs(strain - expected).max() < 1e-9
+    top = np.column_stack([rng.uniform(0, 60, 48_000), rng.uniform(0, 40, 48_000), np.full(48_000, 3.0)])
+    notch = (np.abs(top[:, 0] - 30.0) < 1.0) & (top[:, 1] > 38.0)
+    ends = ends_of(top[~notch], 3.0, 0.01)
+    far = (ends.outwards[:, 1] > 0.99) & (ends.places[:, 2] > 2.9)
+    assert far.sum() > 10 and np.abs(ends.gap[far]).max() < 0.3
+
+
+def test_points_of_a_sheet_lie_beside_rims_of_the_side_that_is_seen():
+    """The top of a plate that is off by 2 of its 3 mm lies nearer to the rims of the bottom."""
+    rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
+    top = np.column_stack([np.random.default_rng(0).uniform(0, (60, 40), (20_000, 2)), np.full(20_000, 1.0)])
+    hidden = rims.faces[:, 2] < -0.5
+    assert hidden.any() and (rims.normals[beside(rims, top, 1.0)[1], 2] < -0.5).any()
+    entry = beside(rims, top, 1.0, hidden)[1]
+    assert not (rims.normals[entry, 2] < -0.5).any() and (rims.normals[entry, 2] > 0.5).any()
+
+
+def linear(space, gradient: np.ndarray, shift_of_all: np.ndarray) -> Deformation:
+    """d(X) = A (X − middle) + b."""
+    return Deformation(space, np.vstack([shift_of_all, 0.5 * space.size * gradient.T]))
+
+
+def test_strain_of_a_deformation_is_greens():
+    """½ (A + Aᵀ + AᵀA) for d = A X + b, so none for a turn; derivatives against differences of it."""
+    space = space_of(target_of(geometry(Part.makeBox(60, 40, 3))))
+    rng = np.random.default_rng(0)
+    a = 0.2 * rng.normal(size=(3, 3))
+    turn = Rotation.from_rotvec((0.3, -0.5, 0.2)).as_matrix() - np.eye(3)
+    components = ((0, 0, 1.0), (0, 1, np.sqrt(2.0)), (1, 2, np.sqrt(2.0)), (2, 2, 1.0))
+    for gradient in (a, turn):
+        strain = 0.5 * (gradient + gradient.T + gradient.T @ gradient)
+        local = np.einsum("ian,ij,jbn->nab", space.frames, strain, space.frames)
+        expected = np.concatenate([share * local[:, i, j] for i, j, share in components])
+        found = linear(space, gradient, rng.normal(size=3)).strains(components)[0]
+        np.testing.assert_allclose(found, expected, atol=1e-12)
+    coefficients = 0.1 * rng.normal(size=(len(space.degree), 3))
+    step = 1e-6 * rng.normal(size=coefficients.shape)
+    rows = Deformation(space, coefficients).strains(components)[1]
+    before, after = (Deformation(space, coefficients + k * step).strains(components)[0] for k in (-1.0, 1.0))
+    np.testing.assert_allclose(2.0 * step.ravel() @ rows, after - before, atol=1e-12)
+
+
+def test_a_deformation_moves_with_the_part():
+    """M (X + d(X)) = X + d'(X) inside the box that the polynomials are evaluated in, to single precision of 30 mm."""
+    space = space_of(target_of(geometry(Part.makeBox(60, 40, 3))))
+    rng = np.random.default_rng(0)
+    deformation = Deformation(space, rng.normal(size=(len(space.degree), 3)))
+    move = motion(Rotation.from_rotvec((0.2, 0.1, -0.3)).as_matrix(), np.array([3.0, -2.0, 1.0]))
+    places = rng.uniform((0, 0, 0), (60, 40, 3), (200, 3))
+    np.testing.assert_allclose(places + deformation.moved(move)(places), apply(move, places + deformation(places)),
+                               atol=1e-4)
 
 
 def test_poses_are_told_apart_in_words():

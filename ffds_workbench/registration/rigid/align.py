@@ -8,12 +8,12 @@ import numpy as np
 
 from ..splines import Array
 from .alignment import FAILED, Alignment
-from .field import SOFT, STIFF
 from .hypothesis import Verified, best_of, nearest_of, turned_on, verify, worth_a_look
 from .polish import polish
 from .proposals import LOCAL, THOROUGH, Stage, propose
 from .quick import quickly
 from .sketch import Plane, Sketch, find_table, sketch_of
+from .smooth import SOFT, STIFF
 from .starts import starts_around, starts_of
 from .target import Target
 from .units import plausible_scales
@@ -81,9 +81,9 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
         if best.evidence.certainty < _CERTAIN:
             verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL, generator)
             best = best_of(verified, mode, target, sketch)
-    pose = polish(target, sketch, best.pose, best.normals, best.evidence.coverage)
+    pose = polish(target, sketch, best.pose, best.normals)
     # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
-    after = examine(target, sketch, pose, turned_on(best, pose), table, freedom=SOFT)
+    after = examine(target, sketch, pose, turned_on(best, pose), table, SOFT)
     best = Verified(pose, max(best.evidence, after, key=lambda evidence: evidence.score), turned_on(best, pose))
     return answer_of(target, sketch, table, best, verified, scale)
 

@@ -2,173 +2,104 @@
 """The pose that fits all of a deformed part best: each place of it against where it lies without the deformation."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .ends import Beside, Ends, beside, depth_of, find_ends, width_of_ends
-from .field import SOFT, Field, Pulls, fit_field
+from .deformation import DEGREE, Deformation, Pulls, fit
+from .ends import Ends, beside, find_ends
 from .motions import apply, best_fit
+from .rims import Rims
+from .smooth import lay
 from .target import Target, once_for_target
 
-_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003, 0.003)
-"""Least cut-off of the weights in each round, as a share of the part's size."""
-_FIRST_ENDS, _COARSE = 2, 3
-"""Round from which on the ends of the scan count; and rounds that are left out where a start is known, when the ends
-count from the second one on."""
-_WIDTH, _BLURRED, _OF_WIDTH = 0.01, 1.5, 0.2
-"""Width within which the ends of a scan are counted, as a share of the part's size, and at least in standard deviations
-of the noise; and height, as a share of the width, up to which a deformed part is on its face."""
-_WIDE = 1.5
-"""Widths in which the ends are counted at first, when they may lie farther off."""
-_FOR_ENDS, _END_GATE = 1.0 / 200.0, 0.2
-"""Weight of the ends for each point on a face, beyond what their own uncertainty gives them, as heights are off by what
-the polynomials cannot follow; and the least cut-off in mm for them, as each is counted from few points."""
-_ON = 0.008
-"""Height, as a share of the part's size, up to which a point lies on it."""
-_OFF, _LEAST_OFF = 6.0, 2e-3
-"""Heights that make a point one beside the part: in their spread, and as a share of the part's size."""
-_FEWEST = 100
+_LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
+"""Degree of the deformation in each look at the scan, and its rounds: every which point counts, least cut-off of the
+heights' weights, and how far off the ends of the scan may lie, as shares of the part's size."""
+_ON_FACE, _COARSE = 3.0, 0.01
+"""Height up to which a point near a rim is on its face, in standard deviations of what the deformation leaves; and at
+least in the first round of a look, as a share of the part's size."""
+_ENDS = 4.0
+"""What an end counts beyond its own uncertainty, as heights are off by what the polynomials cannot follow."""
 _CELLS = 600
 """Pieces of the part's surface that its pose is the best fit of."""
 
 
-@dataclass(frozen=True)
-class Outline:
-    """What of a scan the ends are looked for in.
-
-    Attributes
-    ----------
-    points : (n, 3) in mm
-    area : mm² that they cover
-    noise : standard deviation in mm
-    """
-
-    points: Array
-    area: float
-    noise: float
-
-
-@dataclass(frozen=True)
-class Places:
-    """Places of a deformed part in model coordinates in mm, and where they lie without the deformation; (n, 3)."""
-
-    bent: Array
-    straight: Array
-
-    def moved(self, motion: Array) -> Places:
-        """After the scan has moved by (4, 4)."""
-        return replace(self, bent=apply(motion, self.bent))
-
-    def straightened(self, field: Field) -> Places:
-        return replace(self, straight=self.bent - field(self.bent))
-
-    def bending(self, field: Field) -> Places:
-        """With the bent places made better known by a field."""
-        return replace(self, bent=self.straight + field(self.bent))
-
-
-def settle(target: Target, points: Array, pose: Array, normals: Array, reach: float, outline: Outline,
-           start: Array | None = None) -> Array:
-    """Least-squares pose of a deformed part, over all of its surface alike.
+def settle(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
+           deformation: Deformation) -> tuple[Array, Deformation]:
+    """Motion (4, 4) that brings a deformed part onto the nominal one best, over all of its surface alike, and the
+    deformation that is left then.
 
     Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface. Of the deformations
-    that explain them and the places where the scan ends, the smoothest that stretches least is taken back.
+    that explain them and the places where the scan ends, the likeliest is taken back. Once the part has moved by that
+    as a whole, the scan is looked at again: what lay far off was beside wrong rims.
 
     Parameters
     ----------
-    points, normals : (n, 3) of the scan, scan coordinates, normals outward
-    pose : (4, 4), T_model_scan to start from
+    points, normals : (n, 3) of the scan in model coordinates, normals outward
     reach : in mm
-    outline : of the scan, scan coordinates
-    start : (n, 3) where the points nearly lie without the deformation, model coordinates, if known
+    pool : (m, 3) more points, which show where the scan ends
+    noise : standard deviation of the points in mm
+    deformation : that is known already
     """
-    size, rims = target.size, target.rims
-    facing = normals @ pose[:3, :3].T
-    bent = apply(pose, points)
-    seen = Places(bent, bent if start is None else start)
-    gates, first = (_GATES, _FIRST_ENDS) if start is None else (_GATES[_COARSE:], 1)
-    border, stretches = Places(outline.points[:0], outline.points[:0]), Places(rims.middles, rims.middles)
-    near = None
-    for turn, gate in enumerate(gates):
-        distance, nearest = target.nearest(seen.straight, facing, reach)
-        height, normal = target.heights(seen.straight, nearest)
-        chosen = np.isfinite(distance)
-        pulls = None
-        if near is not None:
-            width = _width(target, outline, _WIDE if turn == first else 1.0)
-            ends = find_ends(rims, border.straight, width, 4.0 * outline.noise + _OF_WIDTH * width, near)
-            pulls = _pulls(ends, stretches, len(points))
-        wanted = height + np.einsum("ni,ni->n", normal, seen.bent - seen.straight)
-        field = fit_field(seen.bent, normal, wanted, height, chosen, target.samples.tangents[nearest], gate * size,
-                          size, SOFT, pulls)
-        seen = seen.straightened(field)
-        if turn == first - 1:
-            turned = _far_side(target, seen.straight, facing, reach)
-            facing = np.where(turned[:, None], -facing, facing)
-            border, near = _border(target, outline, pose, field)
-            stretches = stretches.bending(field)
-        if turn >= first - 1:
-            motion = _best_motion(target, seen, nearest, chosen)
-            if motion is None:
-                break
-            border, stretches = border.straightened(field).moved(motion), stretches.bending(field).moved(motion)
-            pose, seen, facing = motion @ pose, seen.moved(motion), facing @ motion[:3, :3].T
-    return pose
-
-
-def _width(target: Target, outline: Outline, factor: float) -> float:
-    return width_of_ends(target.rims, len(outline.points) / outline.area,
-                         factor * max(_WIDTH * target.size, _BLURRED * outline.noise))
-
-
-def _border(target: Target, outline: Outline, pose: Array, field: Field) -> tuple[Places, Beside]:
-    """The points of the scan near the rims, and which of those they lie near."""
-    bent = apply(pose, outline.points)
-    straight = bent - field(bent)
-    reach = depth_of(_width(target, outline, _WIDE))
-    some = target.rims.near(straight, np.eye(4), reach)
-    near = beside(target.rims, straight[some], reach)
-    return Places(bent[some], straight[some]), near
-
-
-def _pulls(ends: Ends, stretches: Places, count: int) -> Pulls:
-    """What the ends want of the deformation, beside so many points on the faces."""
-    beyond = ends.gap[:, None] * ends.outwards
-    bent = stretches.bent[ends.stretch] + beyond
-    wanted = np.einsum("ni,ni->n", bent - ends.places, ends.outwards)
-    return Pulls(bent, ends.outwards, wanted, ends.gap, ends.weight, _END_GATE, _FOR_ENDS * count)
-
-
-def _far_side(target: Target, points: Array, normals: Array, reach: float) -> NDArray[np.bool_]:
-    """Which points lie on the part if their normals, model coordinates, are turned round, and else do not; (n,)."""
-    off = ~_on(target, points, normals, reach)
-    off[off] = _on(target, points[off], -normals[off], reach)
-    return off
-
-
-def _on(target: Target, points: Array, normals: Array, reach: float) -> NDArray[np.bool_]:
-    distance, nearest = target.nearest(points, normals, reach)
-    return np.isfinite(distance) & (np.abs(target.heights(points, nearest)[0]) < _ON * target.size)
-
-
-def _best_motion(target: Target, seen: Places, nearest: NDArray[np.intp], chosen: NDArray[np.bool_]) -> Array | None:
-    """Motion (4, 4) that brings the deformed part nearest to the part, over all of its surface; None of too few points.
-
-    A piece of surface moves like the place nearest to it that is seen: the whole part counts evenly, also where the
-    scan is thin or shows one side alone.
-    """
-    height, normal = target.heights(seen.straight, nearest)
-    spread = 1.4826 * float(np.median(np.abs(height)))
-    sure = chosen & (np.abs(height) < max(_OFF * spread, _LEAST_OFF * target.size))
-    if sure.sum() < _FEWEST:
-        return None
-    foot = seen.straight[sure] - height[sure, None] * normal[sure]
     middles, area = cells_of(target)
-    return best_fit(middles + (seen.bent[sure] - foot)[cKDTree(foot).query(middles)[1]], middles, area)
+    pose = np.eye(4)
+    for degree, rounds in _LOOKS:
+        scan = _Scan(apply(pose, points), normals @ pose[:3, :3].T, apply(pose, pool), noise)
+        deformation = _look(target, scan, reach, deformation.of_degree(degree), rounds)
+        motion = best_fit(middles + deformation(middles), middles, area)
+        pose, deformation = motion @ pose, deformation.moved(motion)
+    return pose, deformation
+
+
+@dataclass(frozen=True)
+class _Scan:
+    """See ``settle``."""
+
+    points: Array
+    normals: Array
+    pool: Array
+    noise: float
+
+
+def _look(target: Target, scan: _Scan, reach: float, deformation: Deformation,
+          rounds: Sequence[tuple[int, float, float]]) -> Deformation:
+    """The likeliest deformation from where the scan lies and ends, coarse to fine."""
+    size, rims = target.size, target.rims
+    straight = deformation.straightened(scan.points, scan.points)
+    near = deformation.straightened(scan.pool, scan.pool)
+    row, entry = beside(rims, near, rounds[0][2] * size, _hidden(rims, straight, scan.normals))
+    bent, border = scan.pool.take(row, axis=0), near.take(row, axis=0)
+    for turn, (every, gate, end_reach) in enumerate(rounds):
+        straight = deformation.straightened(scan.points, straight)
+        found = lay(target, straight[::every], scan.normals[::every], reach)
+        heights = found.heights(scan.points[::every], gate * size)
+        if heights is None:
+            break
+        spread = max(heights.spread, scan.noise)
+        border = deformation.straightened(bent, border)
+        ends = find_ends(rims, border, entry, end_reach * size, scan.noise,
+                         max(_ON_FACE * spread, 0.0 if turn else _COARSE * size))
+        deformation = fit(deformation, heights, _pulls(ends, deformation, spread, end_reach * size), scan.noise)
+    return deformation
+
+
+def _hidden(rims: Rims, points: Array, normals: Array) -> NDArray[np.bool_]:
+    """Which stretches of rim are of the side of a sheet that the scan does not show; (m,)."""
+    nearest = cKDTree(points, balanced_tree=False, compact_nodes=False).query(rims.middles)[1]
+    return np.einsum("ni,ni->n", normals[nearest], rims.faces) < 0.0
+
+
+def _pulls(ends: Ends, deformation: Deformation, spread: float, cutoff: float) -> Pulls | None:
+    """What the ends want of the deformation; None if there are none."""
+    if not len(ends.gap):
+        return None
+    moved = np.einsum("ni,ni->n", deformation(ends.places), ends.outwards)
+    return Pulls(ends.places, ends.outwards, moved + ends.gap, ends.gap, _ENDS * spread**2 * ends.weight, cutoff)
 
 
 @once_for_target

@@ -10,20 +10,25 @@ from numpy.typing import NDArray
 from ..splines import Array
 from .motions import apply
 from .rims import Rims
-from .target import workers
 
-_STRIP = 3.0
-"""Depth of the strip inside a rim that is looked at, in widths: the density is counted beyond the first width."""
-_FEWEST = 6
-"""Points in the counted strip from which a stretch of rim says something."""
-_STRANGE = 0.1
-"""Share of points beside the face, by those on it: from there on the wall at the rim is seen, and holds the scan."""
-_SATURATED = 0.8
-"""A scan that ends farther inside than this share of the width ends for another reason."""
-_GRADES = 4
-"""Widths per doubling."""
-_FLOOR = 0.1
-"""Uncertainty of a rim that no density takes away, in widths: rounded edges, mixed pixels."""
+_BAND = (1.0, 5.0)
+"""How far inside the outermost point of a stretch of rim the scan's density is counted, in steps of the rims."""
+_FEWEST = 5
+"""Points in that band from which a stretch of rim says something."""
+_MOST_RANK, _WITHIN_NOISE = 4, 0.4
+"""Points at random end 1/density beyond the outermost one, or k/density beyond the k-th. The second to fourth one
+counts where more than one lies within this part of the noise, which carries points over the rim."""
+_BESIDE, _STRANGE = 2.0, 0.05
+"""Steps around the end, and below the face, in which a wall at the rim would be seen, and points of it, against those
+on the face in a mm, beside one that may be stray: from there on it is the wall that holds the scan."""
+_NEIGHBOURS, _FEWEST_AROUND, _ODD = 2, 3, 2.0
+"""Stretches to either side of one, how many of them all have to tell, and how far in standard deviations of its
+uncertainty one may lie from their median: a stray point or a hole makes a stretch of its own."""
+_FLOOR = 0.05
+"""Uncertainty in mm of a rim, even in a dense scan: mixed pixels, rounded edges."""
+_MISSING = 0.3
+"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this, in mm, weighs less.
+"""
 
 
 @dataclass(frozen=True)
@@ -51,77 +56,79 @@ class Ends:
         return replace(self, gap=self.gap + more)
 
 
-@dataclass(frozen=True)
-class Beside:
-    """Which points of a scan lie near which points of the rims.
-
-    Attributes
-    ----------
-    row, entry : (k,) numbers of the point and of the one on the rim; a point beside an edge has one on either face
-    """
-
-    row: NDArray[np.intp]
-    entry: NDArray[np.intp]
-
-
-def beside(rims: Rims, points: Array, reach: float) -> Beside:
-    """What of points (n, 3), in model coordinates, lies within ``reach`` mm of the rims."""
-    if not len(rims.points):
-        return Beside(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))
-    nearest = rims.tree.query(points, distance_upper_bound=reach, workers=workers(points))[1]
-    row = np.flatnonzero(nearest < len(rims.points))
-    first = nearest[row]
-    partner = rims.partner[first]
-    other = partner != first
-    return Beside(np.concatenate([row, row[other]]), np.concatenate([first, partner[other]]))
-
-
-def find_ends(rims: Rims, points: Array, width: float, tolerance: float, near: Beside | None = None) -> Ends:
-    """Count the points near the rims: as many as the strip inside lets expect lie on a face that ends at its rim.
-
-    Of a scan of density λ per mm of depth, n = λ (width + gap) points lie within the width of the rim or beyond it,
-    however symmetric noise blurs its end.
+def beside(rims: Rims, points: Array, reach: float, hidden: NDArray[np.bool_] | None = None,
+           ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which of points (n, 3), in model coordinates, lie beside which of the rims: near enough to tell ends within a
+    reach.
 
     Parameters
     ----------
-    points : (n, 3) in model coordinates, of even density on each side of a rim
-    width : in mm; ends farther than this from the rim are not recognised
-    tolerance : in mm, height up to which a point is on a face
-    near : which points lie near the rims, if known
+    reach : in mm
+    hidden : (m,) which stretches are of the side of a sheet that the scan does not show: what lies beside those is of
+        the other side
+
+    Returns
+    -------
+    row, entry : (k,) numbers of the point and of the one on the rim; a point beside an edge has one on either face
     """
-    depth = depth_of(width)
-    if near is None:
-        near = beside(rims, points, 1.1 * depth)
-    if not len(near.row):
-        return _nothing()
-    chosen = rims.clear(depth)[near.entry]
-    row, entry = near.row[chosen], near.entry[chosen]
-    offset = points[row] - rims.points[entry]
-    beyond = np.einsum("ni,ni->n", offset, rims.outwards[entry])
-    height = np.abs(np.einsum("ni,ni->n", offset, rims.normals[entry]))
-    on, close = height < tolerance, np.abs(beyond) < width
-    stretch, count = rims.stretch[entry], len(rims.middles)
-    inside, around, strange = (np.bincount(stretch[some], minlength=count) for some in (
-        on & (beyond < -width) & (beyond > -depth), on & close, close & ~on & (height < tolerance + width)))
-    density = inside / (depth - width)
-    gap = around / np.maximum(density, 1e-12) - width
-    seen = np.flatnonzero((inside >= _FEWEST) & (strange < _STRANGE * density * width)
-                          & (np.abs(gap) < _SATURATED * width))
-    spread = 1.5 * width / np.maximum(density[seen], 1e-12) + (_FLOOR * width) ** 2
-    return Ends(seen, rims.middles[seen], rims.ways[seen], gap[seen], 1.0 / spread)
+    nearest = rims.nearest(points, np.eye(4))
+    row = np.flatnonzero(nearest >= 0)
+    apart = points.take(row, axis=0) - rims.points.take(nearest[row], axis=0)
+    row = row[np.linalg.norm(apart, axis=1) < reach + _BAND[1] * rims.step]
+    first = nearest[row]
+    if hidden is not None:
+        first = np.where(hidden[rims.stretch[first]], rims.across[first], first)
+    partner = rims.partner[first]
+    other = partner != first
+    row, entry = np.concatenate([row, row[other]]), np.concatenate([first, partner[other]])
+    clear = rims.clear(_BAND[1] * rims.step)[entry]
+    return row[clear], entry[clear]
 
 
-def depth_of(width: float) -> float:
-    """Depth in mm of the strip that is looked at for ends within the width."""
-    return _STRIP * width
+def find_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: float, noise: float, tolerance: float) -> Ends:
+    """Where the outermost points on the faces lie, and what their density lets expect beyond.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates beside the rims, of even density along each
+    entry : (n,) the point on the rim that each lies beside
+    reach : in mm; ends farther than this from the rim are not recognised
+    noise : standard deviation of the points in mm
+    tolerance : in mm, height up to which a point is on a face
+    """
+    count, step, width = len(rims.middles), rims.step, _BAND[1] - _BAND[0]
+    offset, stretch = points - rims.points.take(entry, axis=0), rims.stretch[entry]
+    beyond = np.einsum("ni,ni->n", offset, rims.outwards.take(entry, axis=0))
+    height = np.abs(np.einsum("ni,ni->n", offset, rims.normals.take(entry, axis=0)))
+    far = reach + _BAND[1] * step
+    on = np.flatnonzero((height < tolerance) & (np.abs(beyond) < far))
+    on = on[np.argsort(2.0 * far * stretch[on] - beyond[on])]  # by stretch, and of each from the outermost one on
+    first = np.searchsorted(stretch[on], np.arange(count + 1))
+    first, number = first[:-1], np.diff(first)
+    outermost = np.full(count, -np.inf)
+    outermost[number > 0] = beyond[on[first[number > 0]]]
+    inside = (outermost[stretch[on]] - beyond[on]) / step
+    band = np.bincount(stretch[on][(inside > _BAND[0]) & (inside < _BAND[1])], minlength=count)
+    density = band / (width * step)
+    wall = (height >= tolerance) & (height < tolerance + 2.0 * _BESIDE * step)
+    wall &= np.abs(beyond - outermost[stretch]) < _BESIDE * step
+    strange = np.bincount(stretch[wall], minlength=count)
+    told = np.flatnonzero((band >= _FEWEST) & (number > _MOST_RANK) & (strange < 1.0 + _STRANGE * density))
+    density = density[told]
+    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * density), 1, _MOST_RANK).astype(int)
+    gap = beyond[on[first[told] + rank - 1]] + rank / density
+    spread = np.sqrt(_FLOOR**2 + rank / density**2)
+    seen = (np.abs(gap) < reach) & _as_around(told, gap, spread, count)
+    told, gap, spread = told[seen], gap[seen], spread[seen]
+    weight = 1.0 / (spread * np.hypot(1.0, np.minimum(gap, 0.0) / _MISSING)) ** 2
+    return Ends(told, rims.middles[told], rims.ways[told], gap, weight)
 
 
-def width_of_ends(rims: Rims, density: float, least: float) -> float:
-    """Width in mm that holds enough points of a scan, of so many points per mm², to count its ends, and is not below
-    the ``least``; one of few, as the rims keep what they know of each."""
-    wanted = max(least, 2.0 * _FEWEST / (rims.length_of_stretch * max(density, 1e-12) * (_STRIP - 1.0)))
-    return float(rims.step * 2.0 ** (np.ceil(_GRADES * np.log2(wanted / rims.step)) / _GRADES))
-
-
-def _nothing() -> Ends:
-    return Ends(np.zeros(0, dtype=np.intp), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0))
+def _as_around(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int) -> NDArray[np.bool_]:
+    """Whether the gap of a stretch is about that of its neighbours along the rim, and enough of them tell."""
+    gaps = np.full(count + 2 * _NEIGHBOURS, np.nan)
+    gaps[stretch + _NEIGHBOURS] = gap
+    around = np.sort(np.lib.stride_tricks.sliding_window_view(gaps, 2 * _NEIGHBOURS + 1)[stretch], axis=1)
+    number = np.isfinite(around).sum(axis=1)
+    middle = 0.5 * (around[np.arange(len(stretch)), (number - 1) // 2] + around[np.arange(len(stretch)), number // 2])
+    return (number >= _FEWEST_AROUND) & (np.abs(gap - middle) < _ODD * spread)

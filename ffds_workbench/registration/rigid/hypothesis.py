@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..splines import Array
-from .field import Freedom
 from .fine import refine
 from .motions import angle, apply, shift
 from .polish import is_deformed
 from .sketch import Plane, Sketch
+from .smooth import Rounds
 from .target import Target
 from .verify import Evidence, examine, facing_normals, is_rough
 
@@ -44,9 +44,9 @@ class Verified:
 
 
 def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array,
-           freedom: Freedom) -> Verified:
+           rounds: Rounds) -> Verified:
     """The pose refined against the side of the part that the scan shows, and what speaks for it, a smooth deformation
-    of that freedom allowed for."""
+    allowed for that is fitted in these rounds."""
     pose, normals = refined(target, sketch, pose, signs)
     if not is_rough(target, sketch):
         patched, turned = mended(target, sketch, pose, normals, max(_ON * target.size, 4.0 * sketch.noise))
@@ -56,7 +56,7 @@ def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, sig
             # of a deformed sheet some points lie nearer to the far side
             if not is_deformed(target, sketch, closer, patched):
                 pose, normals = closer, patched
-    return Verified(pose, examine(target.light, sketch, pose, normals, table, freedom=freedom), normals)
+    return Verified(pose, examine(target.light, sketch, pose, normals, table, rounds), normals)
 
 
 def refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:

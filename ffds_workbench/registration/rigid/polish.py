@@ -9,32 +9,40 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .deformed import Outline, settle
-from .ends import Ends, depth_of, find_ends, width_of_ends
+from .deformation import Deformation
+from .deformed import settle
+from .ends import Ends, beside, find_ends
 from .fine import gauss_newton, refine, tukey
-from .motions import apply, step, twist_rows
+from .motions import angle, apply, step, twist_rows
 from .search import field_of
 from .sketch import Sketch, thin
+from .smooth import SOFT, match
 from .target import Target, once_for_target, workers
 from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
+_FAR = 0.07
+"""Turn in rad from which the pose of a deformed part is looked for once more: what began so far off was matched
+with wrong places."""
 _FEW, _MATCHED = 500, 1_000
 """Points that a pose is brought nearer with, and about how many one of a deformed part."""
-_POINTS, _ON_FACES, _LOOKED_AT, _NEAR_RIMS = 2_500, 3_500, 200_000, 12_000
-"""Points for the pose of a rough scan; of a part that is not deformed, for heights, and among so many for the ends."""
+_POINTS, _ON_FACES, _LOOKED_AT = 2_500, 3_500, 60_000
+"""Points for the pose of a rough scan; of a part that is not deformed, for heights, and for the ends."""
+_REACHES, _ON_FACE = (0.01, 0.005), 3.0
+"""How far off the ends of the scan may lie, as a share of the part's size, and height up to which a point is on a face,
+in standard deviations of the noise."""
+_ENDS = 0.25
+"""What an end counts against a point on a face: it may lie outside the rim where a wall below it is seen askew."""
 _LEAST_HELD = 1e-4
 """Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
 _PATCH = 60
 """Of the even samples, some 2,500, so many are the surface around a point: a sixth of the part across."""
 _CLOSE = 0.02
 """Gate for a part that is not deformed, as a share of its size."""
-_BLURRED, _APART = 1.5, 3.0
-"""In standard deviations of the noise: the width within which ends are counted, and the height over a second face below
-which nobody can tell which face a point is on."""
-_FIRST_WIDTH = 0.005
-"""Width, as a share of the part's size, for the ends of a scan that is not quite there yet."""
+_APART = 3.0
+"""In standard deviations of the noise: the height over a second face below which nobody can tell which face a point is
+on."""
 _FINEST = 5e-4
 """Least noise that is reckoned with, as a share of the part's size."""
 _CUT = 4.0
@@ -43,7 +51,7 @@ _STEPS, _STILL = 4, 1e-5
 _CANDIDATES = 3
 
 
-def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float) -> Array:
+def polish(target: Target, sketch: Sketch, pose: Array, normals: Array) -> Array:
     """The pose on thousands of points.
 
     A part that is not deformed lies on its faces, and ends at its rims. Of a deformed one the pose is wanted that fits
@@ -54,27 +62,34 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage
     ----------
     pose : (4, 4), T_model_scan to start from
     normals : (n, 3) outward normals of the sketch in model coordinates
-    coverage : share of the part that the scan shows
     """
     if is_rough(target, sketch):
         gate = max(0.02 * target.size, 3.0 * sketch.noise)
         return refine(target, sketch.pool[thin(sketch.pool, _POINTS)], pose, (2.0 * gate, gate), 15)
     if not is_deformed(target, sketch, pose, normals):
-        return polish_rigid(target, sketch, pose, coverage)
-    return polish_deformed(target, sketch, pose, normals, coverage)
+        return polish_rigid(target, sketch, pose)
+    return polish_deformed(target, sketch, pose, normals)[0]
 
 
-def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array, coverage: float,
-                    start: Array | None = None) -> Array:
-    """The pose that fits all of a deformed part best; ``start`` is where the points nearly lie without the deformation,
-    (n, 3) in model coordinates, if known."""
-    outward, reach = normals @ pose[:3, :3], _WIDE * target.size
-    if start is None:
-        some = slice(None, None, max(1, len(normals) // _MATCHED))
-        pose = refine(target, sketch.points[some], pose, (reach,), 8, outward[some])
-    outline = Outline(sketch.pool, coverage * float(target.samples.area.sum()),
-                      max(sketch.noise, _FINEST * target.size))
-    return settle(target, sketch.points, pose, outward, reach, outline, start)
+def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
+                    deformation: Deformation | None = None) -> tuple[Array, Deformation]:
+    """The pose that fits all of a deformed part best, and the deformation that is left then; from one, if it is known.
+
+    A pose that turns far began at a wrong place, as did the matches: then once more.
+    """
+    reach, noise = _WIDE * target.size, max(sketch.noise, _FINEST * target.size)
+    outward, some = normals @ pose[:3, :3], slice(None, None, max(1, len(normals) // _MATCHED))
+    for _ in range(2):
+        if deformation is None:
+            pose = refine(target, sketch.points[some], pose, (reach,), 8, outward[some])
+            facing = outward[some] @ pose[:3, :3].T
+            deformation = match(target, apply(pose, sketch.points[some]), facing, reach, SOFT)[1]
+        motion, found = settle(target, apply(pose, sketch.points), outward @ pose[:3, :3].T, reach,
+                               apply(pose, sketch.pool), noise, deformation)
+        pose, deformation = motion @ pose, None
+        if angle(motion, np.eye(4)) < _FAR:
+            break
+    return pose, found
 
 
 def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> bool:
@@ -85,26 +100,19 @@ def is_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array) -> 
     return not len(height) or bool(np.quantile(np.abs(height), 0.8) >= max(_DEFORMED * target.size, 3.0 * sketch.noise))
 
 
-def polish_rigid(target: Target, sketch: Sketch, pose: Array, coverage: float) -> Array:
+def polish_rigid(target: Target, sketch: Sketch, pose: Array) -> Array:
     """Least-squares pose of points on the faces and of the scan's ends on the rims, in two rounds."""
     few = sketch.points[:: 1 + len(sketch.points) // _FEW]
     pose = refine(target, few, pose, (_CLOSE * target.size,), _STEPS)
     points = sketch.pool[_telling(target, apply(pose, sketch.pool), _ON_FACES)]
-    looked_at = sketch.scan[:: 1 + len(sketch.scan) // _LOOKED_AT]
     noise = max(sketch.noise, _FINEST * target.size)
-    density = len(looked_at) / (coverage * float(target.samples.area.sum()))
-    narrow = width_of_ends(target.rims, density, _BLURRED * noise)
-    wide = width_of_ends(target.rims, density, _FIRST_WIDTH * target.size)
     chosen, nearest = _on_one_face(target, apply(pose, points), _APART * noise)
-    points, share = points[chosen], len(sketch.pool) / len(looked_at)
-    near = looked_at
-    for width, most in ((max(wide, narrow), _NEAR_RIMS // 3), (narrow, _NEAR_RIMS)):
-        near = near[target.rims.near(near, pose, depth_of(width))]
-        some = near[:: 1 + len(near) // most]
-        ends = find_ends(target.rims, apply(pose, some), width, 4.0 * noise)
-        # each stands for as many points of the scan as one on a face does
-        weight = ends.weight * noise**2 * share * len(near) / max(len(some), 1)
-        pose = _fit(target, points, nearest, pose, replace(ends, weight=weight))
+    points, near = points[chosen], sketch.scan[:: 1 + len(sketch.scan) // _LOOKED_AT]
+    for reach in _REACHES:
+        moved = apply(pose, near)
+        row, entry = beside(target.rims, moved, reach * target.size)
+        ends = find_ends(target.rims, moved[row], entry, reach * target.size, noise, _ON_FACE * noise)
+        pose = _fit(target, points, nearest, pose, replace(ends, weight=_ENDS * noise**2 * ends.weight))
     return pose
 
 

@@ -9,13 +9,14 @@ import numpy as np
 
 from ..splines import Array
 from .alignment import Alignment
-from .field import SOFT, STIFF
+from .deformation import Deformation
 from .fine import refine
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import angle, apply, motion
+from .motions import motion
 from .polish import is_deformed, polish_deformed, polish_rigid
 from .proposals import QUICK, propose
 from .sketch import Plane, Sketch, find_table, sketch_of
+from .smooth import NOT, SOFT, STIFF, Match
 from .starts import turns_up_to
 from .target import Target
 from .verdict import FAILS, answer_of
@@ -30,11 +31,8 @@ _WIDE = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
 _GATE, _STEPS = 0.08, 5
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
-_LOOKS = 5
-"""Rounds of the deformation that tells the sides."""
-_NEARBY = 0.1
-"""Turn in rad up to which the pose of a deformed part may change in the end: one that turns farther began at a wrong
-place, and may end at one."""
+_STIFF_LOOKS, _SOFT_LOOKS = STIFF[:2], SOFT[2:4]
+"""Rounds of the deformations that tell the sides: the second one follows where the first one does not tell."""
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
@@ -90,13 +88,13 @@ def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequ
         normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
         if turned >= TURNED:
             continue
-        evidence = examine(target.light, sketch, side.pose, normals, table, rounds=0)
+        evidence = examine(target.light, sketch, side.pose, normals, table, NOT)
         if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS:
             clear.append(Verified(side.pose, evidence, normals))
     if not clear:
         return None
     best = best_of(clear, "fine", target, sketch)
-    pose = polish_rigid(target, sketch, best.pose, best.evidence.coverage)
+    pose = polish_rigid(target, sketch, best.pose)
     return answer_of(target, sketch, table, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
 
 
@@ -106,25 +104,30 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
 
     ``whole`` is the sketch before it was thinned: all of its points count for the pose.
     """
-    for freedom in (STIFF, SOFT):
-        matches = [matched(target.light, sketch, side.pose, side.normals, _LOOKS, freedom) for side in sides]
-        misfits = [misfit_of(target.light, sketch, side.normals, found)
-                   for side, found in zip(sides, matches, strict=True)]
-        better = int(np.argmin(misfits))
-        if misfits[better] > _CLEARLY_BETTER * misfits[1 - better]:
-            continue
-        side, found = sides[better], matches[better]
-        evidence = weigh(target.light, sketch, side.pose, side.normals, table, found)
-        if evidence.explained < _CLEARLY_RIGHT:
-            continue
-        moved, normals = apply(side.pose, whole.points), outward(whole, side.signs) @ side.pose[:3, :3].T
-        pose = polish_deformed(target, whole, side.pose, normals, evidence.coverage, moved - found.field(moved))
-        if angle(pose, side.pose) > _NEARBY:
-            return None
-        normals = outward(sketch, side.signs) @ pose[:3, :3].T
-        if evidence.certainty < _CERTAIN:
-            evidence = examine(target.light, sketch, pose, normals, table, freedom=freedom)
-        if evidence.certainty >= _CERTAIN:
-            best = Verified(pose, evidence, normals)
-            return answer_of(target, sketch, table, best, [best], scale)
-    return None
+    fits = [matched(target.light, sketch, side.pose, side.normals, _STIFF_LOOKS) for side in sides]
+    better = _better(target, sketch, sides, fits)
+    if better is None:
+        fits = [matched(target.light, sketch, side.pose, side.normals, _SOFT_LOOKS, deformation)
+                for side, (_, deformation) in zip(sides, fits, strict=True)]
+        better = _better(target, sketch, sides, fits)
+    if better is None:
+        return None
+    side = sides[better]
+    normals = outward(whole, side.signs) @ side.pose[:3, :3].T
+    pose, deformation = polish_deformed(target, whole, side.pose, normals, fits[better][1])
+    normals = outward(sketch, side.signs) @ pose[:3, :3].T
+    found = matched(target.light, sketch, pose, normals, NOT, deformation)[0]
+    evidence = weigh(target.light, sketch, pose, normals, table, found)
+    if evidence.certainty < _CERTAIN or evidence.explained < _CLEARLY_RIGHT:
+        return None
+    best = Verified(pose, evidence, normals)
+    return answer_of(target, sketch, table, best, [best], scale)
+
+
+def _better(target: Target, sketch: Sketch, sides: Sequence[_Side], fits: Sequence[tuple[Match, Deformation]],
+            ) -> int | None:
+    """The number of the side that the scan fits clearly better."""
+    misfits = [misfit_of(target.light, sketch, side.normals, found)
+               for side, (found, _) in zip(sides, fits, strict=True)]
+    better = int(np.argmin(misfits))
+    return better if misfits[better] < _CLEARLY_BETTER * misfits[1 - better] else None

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_cdt
 from scipy.spatial import cKDTree
 
 from ..face import FaceGeometry
@@ -16,8 +15,11 @@ from ..splines import Array
 from .trimmed import inside_trims
 
 _MOST_PER_FACE = 1500
-_VOXELS = 120
-"""Of the grid that tells which points lie near rims, along the part."""
+_VOXELS, _NEAR = 80, 0.08
+"""Of the grid that tells which points lie near rims, along the part; and what is near, as a share of its length."""
+_AROUND, _OPPOSITE = 64, 0.7
+"""Points in which one on the other side of a sheet is looked for, and the cosine from which directions are the same.
+"""
 _STRETCH = 8
 """Points of a stretch of rim, half the spacing of the part's samples apart."""
 
@@ -58,6 +60,11 @@ class Rims:
         means = self._means(self.outwards)
         return means / np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-12)
 
+    @cached_property
+    def faces(self) -> Array:
+        """Direction of the face's normal at each stretch; (m, 3)."""
+        return self._means(self.normals)
+
     def _means(self, values: Array) -> Array:
         count = np.maximum(np.bincount(self.stretch), 1)
         return np.stack([np.bincount(self.stretch, values[:, k]) / count for k in range(3)], axis=1)
@@ -75,6 +82,14 @@ class Rims:
     def _clear(self) -> dict[float, NDArray[np.bool_]]:
         return {}
 
+    @cached_property
+    def across(self) -> NDArray[np.intp]:
+        """For each point the one on the other side of a sheet, itself where there is none; (n,)."""
+        near = self.tree.query(self.points, k=min(_AROUND, len(self.points)))[1].reshape(len(self.points), -1)
+        found = (self.normals[near] * self.normals[:, None]).sum(axis=2) < -_OPPOSITE
+        found &= (self.outwards[near] * self.outwards[:, None]).sum(axis=2) > _OPPOSITE
+        return np.where(found.any(axis=1), near[np.arange(len(near)), found.argmax(axis=1)], np.arange(len(near)))
+
     def clear(self, depth: float) -> NDArray[np.bool_]:
         """At which points no other one is nearer to what lies ``depth`` mm inside the face; (n,)."""
         if depth not in self._clear:
@@ -87,30 +102,28 @@ class Rims:
         return _STRETCH * self.step
 
     @cached_property
-    def reach(self) -> float:
-        """Edge length in mm of the voxels that tell which points lie near a rim."""
-        return float(np.ptp(self.points, axis=0).max()) / _VOXELS
+    def _grid(self) -> tuple[Array, float, NDArray[np.int32]]:
+        """Lower corner (3,) and edge length in mm of voxels, and the nearest point of each (nx, ny, nz), −1 where none
+        is near."""
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        length = float((high - low).max())
+        voxel, low = length / _VOXELS, low - _NEAR * length
+        shape = np.ceil((high + _NEAR * length - low) / voxel).astype(int) + 1
+        middles = low + (np.moveaxis(np.indices(shape), 0, -1).reshape(-1, 3) + 0.5) * voxel
+        nearest = self.tree.query(middles, distance_upper_bound=_NEAR * length, workers=-1)[1].astype(np.int32)
+        return low, voxel, np.where(nearest < len(self.points), nearest, np.int32(-1)).reshape(shape)
 
-    @cached_property
-    def _apart(self) -> NDArray[np.uint8]:
-        """How many voxels each is from one that holds a point, across faces, edges or corners; flat."""
-        free = np.ones((_VOXELS + 4,) * 3, dtype=bool)
-        free.ravel()[self._voxel(self.points, np.eye(4))] = False
-        return np.asarray(distance_transform_cdt(free, "chessboard")).astype(np.uint8).ravel()
-
-    def _voxel(self, points: Array, pose: Array) -> NDArray[np.int32]:
-        """Number of the voxel that a pose (4, 4) moves each point (n, 3) into."""
-        low = self.points.min(axis=0) - 2.0 * self.reach
-        place = (pose[:3, :3] / self.reach) @ points.T + ((pose[:3, 3] - low) / self.reach)[:, None]
-        x, y, z = np.clip(place, 0, _VOXELS + 3, out=place).astype(np.int32)
-        return (x * (_VOXELS + 4) + y) * (_VOXELS + 4) + z
-
-    def near(self, points: Array, pose: Array, reach: float = 0.0) -> NDArray[np.intp]:
-        """Indices of the points (n, 3) that a pose (4, 4) moves within ``reach`` mm of a rim, or a voxel, and of
-        some beside those: without a search for the nearest."""
+    def nearest(self, points: Array, pose: Array) -> NDArray[np.int32]:
+        """For points (n, 3) moved by a pose (4, 4) the point of the rims that is the nearest, to within a voxel, and −1
+        where none is near: (n,). A look-up instead of a search."""
         if not len(self.points):
-            return np.zeros(0, dtype=np.intp)
-        return np.flatnonzero(self._apart[self._voxel(points, pose)] <= max(1.0, np.ceil(reach / self.reach)))
+            return np.full(len(points), -1, dtype=np.int32)
+        low, voxel, table = self._grid
+        place = (pose[:3, :3] / voxel) @ points.T + ((pose[:3, 3] - low) / voxel)[:, None]
+        x, y, z = np.floor(place, out=place).astype(np.int32)
+        nx, ny, nz = table.shape
+        inside = (x >= 0) & (x < nx) & (y >= 0) & (y < ny) & (z >= 0) & (z < nz)
+        return np.where(inside, table.ravel().take(np.where(inside, (x * ny + y) * nz + z, 0)), np.int32(-1))
 
     def overshoot(self, points: Array, face: NDArray[np.intp], gate: float) -> tuple[Array, Array]:
         """How far points stick out of the face they are matched with, beyond its rim.
@@ -128,12 +141,11 @@ class Rims:
         """
         if not len(self.points):
             return np.zeros(len(points)), np.zeros((len(points), 3))
-        distance, index = self.tree.query(points, distance_upper_bound=gate)
-        near = np.isfinite(distance)
-        index = np.where(near, index, 0)
+        index = self.nearest(points, np.eye(4))
         outwards = self.outwards[index]
         beyond = np.einsum("ni,ni->n", points - self.points[index], outwards)
-        return np.where(near & (self.face[index] == face), np.maximum(beyond, 0.0), 0.0), outwards
+        near = (index >= 0) & (beyond < gate) & (self.face[index] == face)
+        return np.where(near, np.maximum(beyond, 0.0), 0.0), outwards
 
 
 def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacing: float) -> Rims:

@@ -27,6 +27,9 @@ its neighbours' own are."""
 _OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
 """Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
 over it from which a point may be stray."""
+_INVERSE = 2
+"""Steps of inverse iteration for a normal after the first one: each divides its error by that of the two least
+eigenvalues, 4 and more where the surface is one."""
 _ALMOST = 1.15
 """So many times as many points are as many."""
 _DENSE = 100
@@ -161,23 +164,40 @@ def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> ND
     return among
 
 
-def _local_planes(neighbourhoods: Array, rounds: int = 1) -> tuple[Array, Array]:
+def _local_planes(neighbourhoods: Array) -> tuple[Array, Array]:
     """Normal and standard deviation about the plane through (n, k, 3) neighbourhoods, the point itself first.
 
-    Repeated with less weight for neighbours off the plane: the other side of a thin sheet is not the same surface.
+    Neighbours off a first plane weigh less in the second: the other side of a thin sheet is not the same surface.
     """
     offset = neighbourhoods - neighbourhoods[:, :1]
     radius = np.sqrt(np.einsum("nki,nki->nk", offset, offset).max(axis=1, keepdims=True))
-    weight = np.ones(offset.shape[:2])
-    for turn in range(rounds + 1):
-        total = weight.sum(axis=1)
-        centred = offset - (weight[:, None] @ offset) / total[:, None, None]
-        values, vectors = np.linalg.eigh(np.swapaxes(centred * weight[:, :, None], 1, 2) @ centred)
-        if turn < rounds:
-            height = (offset @ vectors[:, :, :1])[:, :, 0]
-            weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
-    freedom = np.maximum(total - 3.0, 1.0)
-    return vectors[:, :, 0], np.sqrt(np.maximum(values[:, 0], 0.0) / freedom)
+    flat = _flattest(_scatter(offset, np.ones(offset.shape[:2])))
+    height = (offset @ flat[:, :, None])[:, :, 0]
+    weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
+    scatter = _scatter(offset, weight)
+    normal = _flattest(scatter)
+    square = np.einsum("ni,nij,nj->n", normal, scatter, normal)
+    return normal, np.sqrt(np.maximum(square, 0.0) / np.maximum(weight.sum(axis=1) - 3.0, 1.0))
+
+
+def _scatter(offset: Array, weight: Array) -> Array:
+    """Weighted sums (n, 3, 3) of squares about the mean of neighbourhoods (n, k, 3) with weights (n, k)."""
+    centred = offset - (weight[:, None] @ offset) / weight.sum(axis=1)[:, None, None]
+    return np.swapaxes(centred * weight[:, :, None], 1, 2) @ centred
+
+
+def _flattest(scatter: Array) -> Array:
+    """Unit eigenvectors (n, 3) of the least eigenvalues of matrices (n, 3, 3), by inverse iteration.
+
+    The inverse is the adjugate but for a factor, and its columns are cross products: a tenth of the time of ``eigh``.
+    """
+    inverse = np.stack([np.cross(scatter[:, k - 2], scatter[:, k - 1]) for k in range(3)], axis=2)
+    longest = np.einsum("nik,nik->nk", inverse, inverse).argmax(axis=1)
+    vector = inverse[np.arange(len(inverse)), :, longest]
+    for _ in range(_INVERSE):
+        vector = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
+        vector = (inverse @ vector[:, :, None])[:, :, 0]
+    return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300))
 
 
 def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) -> Plane | None:

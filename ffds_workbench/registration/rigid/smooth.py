@@ -1,19 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A smooth deformation of space that a scan of the right part is allowed beyond its rigid pose."""
+"""A smooth deformation of the part that a scan of the right part is allowed beyond its rigid pose."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..splines import Array
-from .field import STIFF, Field, Freedom, fit_field
+from .deformation import DEGREE, Deformation, Pulls, fit, still
 from .target import Target
 
-ROUNDS = 6
-_WIDEST = 0.1
-"""Gate of the first round as a share of the part's size; each round halves it."""
+Rounds = Sequence[tuple[float, int]]
+
+_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
+NOT = ()
+STIFF = tuple((gate, 2) for gate in _GATES)
+SOFT = (*STIFF[:2], *((gate, DEGREE) for gate in _GATES[2:]))
+"""Rounds of a fit: gates as shares of the part's size, and degrees of the deformation. None at all; those that tell the
+part from another one; and those that follow a deformed part."""
+_FEWEST = 60
+"""Points from which a deformation is fitted."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +34,6 @@ class Match:
     distance : (n,) from the sample in mm, infinite where nothing within reach faces the same way
     nearest : (n,) index of the sample
     height, normal : (n,) in mm over the face, and (n, 3) of the face
-    field : the deformation
     """
 
     points: Array
@@ -34,29 +41,43 @@ class Match:
     nearest: NDArray[np.intp]
     height: Array
     normal: Array
-    field: Field
+
+    def heights(self, points: Array, gate: float) -> Pulls | None:
+        """What the heights want of the deformation, where the points (n, 3) lie with it; None of too few points.
+
+        Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
+        """
+        some = np.flatnonzero(np.isfinite(self.distance))
+        if len(some) < _FEWEST:
+            return None
+        left, normal = self.height[some], self.normal[some]
+        wanted = left + np.einsum("ni,ni->n", normal, points[some] - self.points[some])
+        return Pulls(self.points[some], normal, wanted, left, np.ones(len(some)), gate)
 
 
-def match(target: Target, points: Array, normals: Array, reach: float, rounds: int = ROUNDS, freedom: Freedom = STIFF,
-          start: Array | None = None) -> Match:
+def lay(target: Target, points: Array, normals: Array, reach: float) -> Match:
+    """Points and outward normals (n, 3), without the deformation and in model coordinates, matched with the part."""
+    distance, nearest = target.nearest(points, normals, reach)
+    return Match(points, distance, nearest, *target.heights(points, nearest))
+
+
+def match(target: Target, points: Array, normals: Array, reach: float, rounds: Rounds,
+          start: Deformation | None = None) -> tuple[Match, Deformation]:
     """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
 
     Parameters
     ----------
     points, normals : (n, 3) in model coordinates, normals outward
     reach : largest distance in mm
-    rounds : 0 for no deformation
-    freedom : of the deformation
-    start : (n, 3) where the points nearly lie without it, if known: the last rounds are enough then
+    rounds : gates as shares of the part's size, and degrees of the deformation
+    start : what is known of the deformation
     """
-    place, field = points if start is None else start, Field.still(points, target.size, freedom.degree)
-    for turn in range(rounds + 1):
-        distance, nearest = target.nearest(place, normals, reach)
-        height, normal = target.heights(place, nearest)
-        if turn < rounds:
-            wanted = height + np.einsum("ni,ni->n", normal, points - place)
-            field = fit_field(points, normal, wanted, height, np.isfinite(distance), target.samples.tangents[nearest],
-                              _WIDEST * target.size * 0.5**(turn if start is None else ROUNDS - rounds + turn),
-                              target.size, freedom)
-            place = points - field(points)
-    return Match(place, distance, nearest, height, normal, field)
+    deformation = still(target) if start is None else start
+    found = lay(target, points if start is None else deformation.straightened(points, points), normals, reach)
+    for gate, degree in rounds:
+        heights = found.heights(points, gate * target.size)
+        if heights is None:
+            break
+        deformation = fit(deformation.of_degree(degree), heights)
+        found = lay(target, deformation.straightened(points, found.points), normals, reach)
+    return found, deformation

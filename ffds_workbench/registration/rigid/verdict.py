@@ -68,7 +68,7 @@ def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified,
     for other in [*turned, *sorted(found, key=lambda v: -v.evidence.score)]:
         known = (best, *rivals)
         if _is_new(other.pose, known, place, target.size) and other.reason == "found":
-            other = replace(other, pose=polish(target, sketch, other.pose, other.normals, other.evidence.coverage))
+            other = replace(other, pose=polish(target, sketch, other.pose, other.normals))
         if _is_new(other.pose, known, place, target.size):
             rivals.append(other)
     return rivals

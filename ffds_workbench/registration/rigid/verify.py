@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..splines import Array
-from .field import STIFF, Freedom
+from .deformation import Deformation
 from .motions import apply
 from .sketch import Plane, Sketch
-from .smooth import ROUNDS, Match, match
+from .smooth import NOT, STIFF, Match, Rounds, match
 from .target import Target, workers
 
 _NORMALS_AGREE = 0.6
@@ -70,7 +70,7 @@ def facing_normals(target: Target, points: Array) -> Array:
 
 
 def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
-            rounds: int = ROUNDS, freedom: Freedom = STIFF) -> Evidence:
+            rounds: Rounds = STIFF) -> Evidence:
     """Weigh a pose.
 
     Parameters
@@ -79,17 +79,17 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     pose : (4, 4), T_model_scan
     normals : (n, 3) outward normals of the sketch in model coordinates
     table : the plane beside the part, scan coordinates
-    rounds, freedom : of the smooth deformation that is allowed for, see ``match``
+    rounds : of the smooth deformation that is allowed for, see ``match``
     """
-    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds, freedom))
+    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds)[0])
 
 
-def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: int = ROUNDS,
-            freedom: Freedom = STIFF) -> Match:
-    """The sketch matched with the part; see ``examine``."""
+def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: Rounds,
+            start: Deformation | None = None) -> tuple[Match, Deformation]:
+    """The sketch matched with the part; see ``examine`` and ``match``."""
     # under large noise a smooth deformation could not be told from a wrong pose
     return match(target, apply(pose, sketch.points), normals, 2.0 * _NEAR * target.size,
-                 0 if is_rough(target, sketch) else rounds, freedom)
+                 NOT if is_rough(target, sketch) else rounds, start)
 
 
 def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None, found: Match) -> Evidence:
