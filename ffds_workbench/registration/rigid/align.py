@@ -13,7 +13,7 @@ from .polish import polish
 from .proposals import LOCAL, THOROUGH, Stage, propose
 from .quick import quickly
 from .sketch import Plane, Sketch, find_table, sketch_of
-from .smooth import SOFT, STIFF
+from .smooth import NOT, SOFT, STIFF
 from .starts import starts_around, starts_of
 from .target import Target
 from .units import plausible_scales
@@ -82,9 +82,10 @@ def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator
             verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL, generator)
             best = best_of(verified, mode, target, sketch)
     pose = polish(target, sketch, best.pose, best.normals)
-    # the pose has moved little: of two fits of a smooth deformation to the same hypothesis the better one counts
-    after = examine(target, sketch, pose, turned_on(best, pose), table, SOFT)
-    best = Verified(pose, max(best.evidence, after, key=lambda evidence: evidence.score), turned_on(best, pose))
+    # the pose has moved little: of the fits with a smooth deformation and without one the best counts
+    normals = turned_on(best, pose)
+    fits = best.evidence, *(examine(target, sketch, pose, normals, table, rounds) for rounds in (NOT, SOFT))
+    best = Verified(pose, max(fits, key=lambda evidence: evidence.score), normals)
     return answer_of(target, sketch, table, best, verified, scale)
 
 

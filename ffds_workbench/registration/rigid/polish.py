@@ -16,7 +16,7 @@ from .fine import gauss_newton, refine, tukey
 from .motions import angle, apply, step, twist_rows
 from .search import field_of
 from .sketch import Sketch, thin
-from .smooth import SOFT, match
+from .smooth import STIFF, match
 from .target import Target, once_for_target, workers
 from .verify import is_rough
 
@@ -83,7 +83,7 @@ def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
         if deformation is None:
             pose = refine(target, sketch.points[some], pose, (reach,), 8, outward[some])
             facing = outward[some] @ pose[:3, :3].T
-            deformation = match(target, apply(pose, sketch.points[some]), facing, reach, SOFT)[1]
+            deformation = match(target, apply(pose, sketch.points[some]), facing, reach, STIFF)[1]
         motion, found = settle(target, apply(pose, sketch.points), outward @ pose[:3, :3].T, reach,
                                apply(pose, sketch.pool), noise, deformation)
         pose, deformation = motion @ pose, None
