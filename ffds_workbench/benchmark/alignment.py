@@ -37,6 +37,8 @@ _FAMILIES = ("bracket", "rimmed-plate", "hat-channel", "pipe-on-plate", "free-fo
 _FAR, _TURNED = 1.0, np.deg2rad(0.5)
 _POINTS = 360_000
 """Of every scan, cropped or with a table: as many as a stereo camera's shot has."""
+_WARPS, _OTHER_SEED = ("bend", "twist", "iso", "mix", "bumps"), 2
+"""Deformations of the second table of parts, and what those are drawn with."""
 _REPEATS = 3
 """Measurements of the downsampling before each alignment, of which the median counts: single ones differ by half."""
 
@@ -108,8 +110,9 @@ def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
     poses = Table("Poses from random starts, turn by turn on the parts: " + ", ".join(_FAMILIES), (
         "scan", "mode", "failures", "asked", "ambiguous", "bias mm", "median mm", "worst mm", "worst °", "median s",
         "in voxel downsamplings"), rows)
+    ways, data["deformations"] = _deformations(progress)
     alarms, data["other_parts"] = _other_parts(trials, progress)
-    tables = [poses, first, alarms]
+    tables = [poses, first, ways, alarms]
     real = ROOT.parent / "shared" / "data" / "weld_pipe_on_angle"
     if real.is_dir():
         table, data["real_weld_part"] = _real(real, starts, progress)
@@ -252,6 +255,26 @@ def _downsampling(scan: Array) -> float:
     begin = time.perf_counter()
     cloud.voxel_down_sample(1.5).estimate_normals()
     return time.perf_counter() - begin
+
+
+def _deformations(progress: Callable[[str], None]) -> tuple[Table, dict[str, Any]]:
+    """Other parts than the above, deformed in other ways as well, from two starts each."""
+    rows, data = [], {}
+    for warp in _WARPS:
+        tries = []
+        for family in _FAMILIES:
+            progress(f"Aligning: {family}, {warp}")
+            case = make_case(family, warp, _OTHER_SEED, amplitude=5.0)
+            target, seconds = _sampled(case.target.faces)
+            scan = _resampled(case.scan.points, np.random.default_rng(1))
+            trial = Trial(family, warp, target, scan, _best_pose(case), seconds)
+            tries += [_try(trial, "fine", seed) for seed in range(2)]
+        row = _summary(tries)
+        data[warp] = row
+        rows.append([warp, f"{row['failures']} of {len(tries)}", f"{row['median_mm']:.3f}", f"{row['worst_mm']:.3f}",
+                     f"{row['worst_deg']:.2f}"])
+    caption = "Fine, of other parts, deformed by 5 mm in other ways as well"
+    return Table(caption, ("deformation", "failures", "median mm", "worst mm", "worst °"), rows), data
 
 
 def _other_parts(trials: list[Trial], progress: Callable[[str], None]) -> tuple[Table, dict[str, str]]:

@@ -70,7 +70,7 @@ def _look(target: Target, scan: _Scan, reach: float, deformation: Deformation,
           rounds: Sequence[tuple[int, float, float]]) -> Deformation:
     """The likeliest deformation from where the scan lies and ends, coarse to fine."""
     size, rims = target.size, target.rims
-    straight = deformation.straightened(scan.points, scan.points)
+    straight = deformation.straightened(scan.points, deformation.straightened(scan.points, scan.points))
     near = deformation.straightened(scan.pool, scan.pool)
     row, entry = beside(rims, near, rounds[0][2] * size, _hidden(rims, straight, scan.normals))
     bent, border = scan.pool.take(row, axis=0), near.take(row, axis=0)

@@ -81,7 +81,6 @@ def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
     outward, some = normals @ pose[:3, :3], slice(None, None, max(1, len(normals) // _MATCHED))
     for _ in range(2):
         if deformation is None:
-            pose = refine(target, sketch.points[some], pose, (reach,), 8, outward[some])
             facing = outward[some] @ pose[:3, :3].T
             deformation = match(target, apply(pose, sketch.points[some]), facing, reach, STIFF)[1]
         motion, found = settle(target, apply(pose, sketch.points), outward @ pose[:3, :3].T, reach,
