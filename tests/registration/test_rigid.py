@@ -270,7 +270,7 @@ def test_cropped_scan_with_clutter(bracket, share, seed):
     moved = anywhere(part, seed)
     found = align(target, apply(moved, np.concatenate([part, stray])), "global")
     assert found.verdict == OK and is_right(found.T_model_scan, moved, target.centre)
-    assert found.explained > 0.9 and found.confidence > 0.33
+    assert found.explained > 0.9 and found.confidence > 0.25
 
 
 def test_table_with_most_of_the_points(bracket):

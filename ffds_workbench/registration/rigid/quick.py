@@ -36,7 +36,7 @@ _STIFF_LOOKS, _SOFT_LOOKS = STIFF[:2], SOFT[2:4]
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
-_CLEARLY_BETTER, _CERTAIN = 0.65, 0.78
+_CLEARLY_BETTER, _CERTAIN = 0.65, 0.79
 """Where a smooth deformation is taken back: misfit of the right side over that of the other one, at most 0.55 where the
 answer was right, and certainty of an answer."""
 
