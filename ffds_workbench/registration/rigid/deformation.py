@@ -26,6 +26,7 @@ _LENGTH, _AMPLITUDE = 0.6, 0.01
 _TELLS = 0.02
 """Monomials that move nothing of the part by this share of s are left out: powers across a sheet."""
 _STRAIN_POINTS = 75
+"""Places of the surface whose strain counts, about."""
 _ALONG, _THROUGH = ((0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))), ((2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0)))
 """Components of the strain along the surface and through it, in frames of two tangents and the normal, with the root of
 how often each stands in the tensor."""
@@ -132,8 +133,7 @@ class Deformation:
         turn, half = motion[:3, :3], 0.5 * self.space.size
         coefficients = self.of_degree(max(1, int(self.space.degree[len(self.coefficients) - 1]))).coefficients @ turn.T
         coefficients[0] += (turn - np.eye(3)) @ self.space.middle + motion[:3, 3]
-        for number, (parent, axis) in enumerate(self.space.parents[:3], start=1):
-            coefficients[number] += (turn - np.eye(3))[:, axis] * half
+        coefficients[1:4] += half * (turn - np.eye(3)).T
         return replace(self, coefficients=coefficients)
 
     def of_degree(self, degree: int) -> Deformation:
@@ -157,7 +157,7 @@ class Deformation:
 
 
 def still(target: Target) -> Deformation:
-    """None."""
+    """No deformation at all."""
     return Deformation(space_of(target), np.zeros((1, 3)))
 
 

@@ -36,9 +36,8 @@ _STIFF_LOOKS, _SOFT_LOOKS = STIFF[:2], SOFT[2:4]
 _CLEARLY_RIGHT = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
-_CLEARLY_BETTER, _CERTAIN = 0.65, 0.79
-"""Where a smooth deformation is taken back: misfit of the right side over that of the other one, at most 0.55 where the
-answer was right, and certainty of an answer."""
+_CLEARLY_BETTER = 0.65
+"""Misfit of the right side over that of the other one, where a smooth deformation is taken back."""
 
 
 def quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
@@ -118,7 +117,7 @@ def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequen
     normals = outward(sketch, side.signs) @ pose[:3, :3].T
     found = matched(target.light, sketch, pose, normals, NOT, deformation)[0]
     evidence = weigh(target.light, sketch, pose, normals, table, found)
-    if evidence.certainty < _CERTAIN or evidence.explained < _CLEARLY_RIGHT:
+    if evidence.certainty < FAILS or evidence.explained < _CLEARLY_RIGHT:
         return None
     best = Verified(pose, evidence, normals)
     return answer_of(target, sketch, table, best, [best], scale)
