@@ -75,9 +75,9 @@ def curvature_variation(surface: SplineSurface, lattice: ControlLattice, layout:
     _, s_u, s_v, *_ = frames(surface, u[:1], v[:1])
     along, across = np.linalg.inv(np.linalg.qr(np.concatenate([s_u, s_v]).T)[1]).T  # unit steps, in u and v
     # The four coefficients of each product stay four: a polynomial's leading zeros would be dropped.
-    products = [np.convolve(np.convolve(a, b), c) for a, b, c in
-                ((along, along, along), (along, along, across), (along, across, across), (across, across, across))]
-    form = np.array(products) * np.sqrt([1, 3, 3, 1])[:, None]
+    cubics = [np.convolve(np.convolve(a, b), c) for a, b, c in
+              ((along, along, along), (along, along, across), (along, across, across), (across, across, across))]
+    form = np.array(cubics) * np.sqrt([1, 3, 3, 1])[:, None]
     product = form.T @ form * np.linalg.norm(np.cross(s_u, s_v))
     cell = np.outer(weight_u, weight_v)[None]
     bases_u = [basis_matrix(lattice.knots_u, u, derivative=3 - k) for k in range(4)]
