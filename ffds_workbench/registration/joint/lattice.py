@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..face import FaceGeometry
+from ..arrays import Index
 from ..splines import DEGREE, Array, SplineSurface
-
-Index = NDArray[np.intp]
 
 FEWEST_CLOSED_SPANS = 8
 _PROBES = 17

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..robust_weights import quantile, tukey
 from ..splines import Array
 from .motions import apply, step, twist_rows
 from .target import Target
@@ -18,19 +19,6 @@ _STILL = 3e-5
 """A step below this share of the part's size ends a stage."""
 _KEPT = 0.25
 """Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""
-
-
-def tukey(residual: Array, cutoff: float | Array) -> Array:
-    """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""
-    ratio = residual / cutoff
-    return np.where(np.abs(ratio) < 1.0, (1.0 - ratio * ratio) ** 2, 0.0)
-
-
-def quantile(values: Array, share: float) -> float:
-    """One of the values (n > 0,), below which the share of them lies: numpy's method "lower", whose own function takes
-    ten times as long for a few hundred of them."""
-    rank = int(share * (len(values) - 1))
-    return float(np.partition(values, rank)[rank])
 
 
 def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12,

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from ..face import FaceGeometry
 from ..splines import Array
-from .trimmed import inside_trims
+from ..trims import inside_polylines
 
 _MOST_PER_FACE = 1500
 _VOXELS, _NEAR = 80, 0.08
@@ -202,6 +202,6 @@ def _edge_points(face: FaceGeometry, index: int, step: float,
     e, f = np.einsum("ni,ni->n", su, across), np.einsum("ni,ni->n", sv, across)
     determinant = np.maximum(a * c - b * b, 1e-300)
     small = 0.02 * step * np.stack([(c * e - b * f) / determinant, (a * f - b * e) / determinant], axis=1)
-    inside = inside_trims(face.trims, uv + small)
+    inside = inside_polylines(face.trims, uv + small)
     across *= np.where(inside, -1.0, 1.0)[:, None]
     return surface(uv), across, normal, np.full(len(uv), index), part

@@ -19,7 +19,7 @@ from ..face import FaceGeometry
 from ..splines import Array
 from .motions import even_directions
 from .rims import Rims, rims_of
-from .trimmed import inside_trims
+from ..trims import inside_polylines
 
 Result = TypeVar("Result")
 _SAMPLES = 24_000
@@ -225,11 +225,6 @@ def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], R
     return kept
 
 
-def workers(points: Array) -> int:
-    """Threads that a search for so many points is worth."""
-    return -1 if len(points) > 1000 else 1
-
-
 def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:
     """Sample the faces of a part.
 
@@ -284,7 +279,7 @@ class _AreaGrid:
         cross = np.cross(face.surface.derivative(1, 0).on_grid(u, v), face.surface.derivative(0, 1).on_grid(u, v))
         density = np.linalg.norm(cross, axis=2)
         uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=2).reshape(-1, 2)
-        within = inside_trims(face.trims, uv).reshape(density.shape)
+        within = inside_polylines(face.trims, uv).reshape(density.shape)
         cell = (box[1] - box[0]) * (box[3] - box[2]) / density.size
         return cls(box, density, float((density * within).sum() * cell))
 
@@ -314,7 +309,7 @@ def _sample_face(face: FaceGeometry, index: int, area: _AreaGrid, spacing: float
     bent = float(np.quantile(np.linalg.norm(probe.curvature, axis=1), 0.75)) * spacing / _TURN
     count = int(np.ceil(area.whole / spacing**2 * np.clip(bent**2, 1.0, 9.0)))
     uv = area.place(_r2_sequence(max(count, 12)))
-    uv = uv[inside_trims(face.trims, uv)]
+    uv = uv[inside_polylines(face.trims, uv)]
     samples = _evaluate(face, uv, index)
     return Samples(samples.points, samples.normals, samples.tangents, samples.curvature,
                    np.full(len(uv), area.inside / max(len(uv), 1)), samples.face)
