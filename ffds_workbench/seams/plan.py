@@ -10,7 +10,7 @@ from typing import Any
 
 import Part
 
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import InputError
 from ..output import check_writable, replacing
 from . import report

@@ -6,7 +6,7 @@ import FreeCAD
 import Part
 import pytest
 
-from ffds_workbench.brep import files
+from ffds_workbench.brep.model_files import model_file
 
 RED = (1.0, 0.0, 0.0, 0.0)
 
@@ -14,7 +14,7 @@ RED = (1.0, 0.0, 0.0, 0.0)
 @pytest.mark.parametrize("colours", [(), (RED,) * 6])
 def test_a_written_document_opens_visible(hands, tmp_path, colours):
     path = tmp_path / "plate.FCStd"
-    files.write(files.Model(Part.makeBox(60, 40, 5), "Plate", files.Decoration(colours=colours)), path)
+    model_file.write(model_file.Model(Part.makeBox(60, 40, 5), "Plate", model_file.Decoration(colours=colours)), path)
     document = FreeCAD.openDocument(str(path))
     hands.wait(200)
     shown = document.Objects[0].ViewObject

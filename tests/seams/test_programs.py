@@ -17,12 +17,8 @@ import pytest
 
 from ffds_workbench.errors import InputError
 from ffds_workbench.seams.plan import plan_seams, write_seams
-from ffds_workbench.seams.programs.conventions import (
-    abb_quaternions,
-    from_kuka_angles,
-    kuka_angles,
-    ur_rotation_vectors,
-)
+from ffds_workbench.seams.programs.conventions import (abb_quaternions, from_kuka_angles, kuka_angles,
+                                                       ur_rotation_vectors)
 from ffds_workbench.seams.programs.moves import RobotSettings, moves, read_frame_choice
 
 R = 0.5**0.5
