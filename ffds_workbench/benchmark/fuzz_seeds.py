@@ -14,7 +14,7 @@ _PAGE, _CHECKSUM, _E57_HEADER = 1024, 4, 48
 
 
 def scans() -> Mapping[str, list[bytes]]:
-    """By suffix, the contents of files with a curved patch of `POINTS` points, and normals where the format has them."""
+    """By suffix, the contents of files with a curved patch of `POINTS` points, most of them with normals."""
     random = np.random.default_rng(1)
     x, y = random.uniform(0.0, 100.0, (2, POINTS))
     points = np.stack([x, y, 5.0 * np.sin(x / 30.0)], axis=1)
@@ -107,8 +107,11 @@ def stl_text(corners: Array) -> bytes:
     return f"solid scan\n{text}endsolid scan\n".encode()
 
 
-def e57(points: Array) -> bytes:
-    """Points (n, 3) as E57 (ASTM E2807): z as a scaled integer of 21 bits, the others as doubles; checksums are 0."""
+def e57(points: Array, old: str = "", new: str = "") -> bytes:
+    """Points (n, 3) as E57 (ASTM E2807): z as a scaled integer of 21 bits, the others as doubles; checksums are 0.
+
+    In the text that describes them ``old`` is replaced by ``new``.
+    """
     half, scale = 1 << 20, 1e-3
     stored = np.rint(points[:, 2] / scale).astype(np.int64) + half
     streams = [points[:, 0].astype("<f8").tobytes(), points[:, 1].astype("<f8").tobytes(),
@@ -123,7 +126,8 @@ def e57(points: Array) -> bytes:
             '<prototype type="Structure"><cartesianX type="Float"/><cartesianY type="Float"/>'
             f'<cartesianZ type="ScaledInteger" minimum="{-half}" maximum="{half - 1}" scale="{scale}"/></prototype>'
             '</points><pose type="Structure"><rotation type="Structure"><w type="Float">0.6</w><x type="Float"/>'
-            '<y type="Float"/><z type="Float">0.8</z></rotation></pose></vectorChild></data3D></e57Root>').encode()
+            '<y type="Float"/><z type="Float">0.8</z></rotation></pose></vectorChild></data3D></e57Root>')
+    text = text.replace(old, new).encode() if old else text.encode()
     pages = -(-(_E57_HEADER + len(section) + len(text)) // (_PAGE - _CHECKSUM))
     header = struct.pack("<8s2I4Q", b"ASTM-E57", 1, 0, pages * _PAGE, _physical(_E57_HEADER + len(section)), len(text),
                          _PAGE)

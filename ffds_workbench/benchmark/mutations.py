@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Damage as files suffer it: bits that flip, parts that are lost, doubled or mixed up, and numbers that make no sense."""
+"""Damage as files suffer it: bits that flip, parts lost, doubled or mixed up, numbers that make no sense."""
 from __future__ import annotations
 
 import re

@@ -87,7 +87,8 @@ def _text(path: Path) -> bytes:
 def _beginning(data: bytes) -> _Beginning:
     """The header may be a comment itself ("//X Y Z"): the last line before the points that names x, y and z."""
     stream = io.BytesIO(data)
-    header, promised, sample = "", None, []
+    header, promised = "", None
+    sample: list[str] = []
     start = lines = place = 0
     for number, raw in enumerate(stream):
         place += len(raw)
