@@ -12,23 +12,23 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from ..api.tuning import Tuning
-from ..brep import workpiece
-from ..errors import RefusedError
-from ..objects.job import Settings
-from ..objects.lattices import Lattice, draw_lattice
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.observed import observed_faces
-from ..registration.raster_fit import RobustSettings
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import DEGREE, SplineSurface
-from ..report.stopwatch import Progress
-from ..scan.cloud import PointCloud
+from ...api.tuning import Tuning
+from ...brep import workpiece
+from ...errors import RefusedError
+from ...objects.job import Settings
+from ...objects.lattices import Lattice, draw_lattice
+from ...registration.ffd import register_ffd
+from ...registration.ffds import register_ffds
+from ...registration.observed import observed_faces
+from ...registration.raster_fit import RobustSettings
+from ...registration.result import FaceRegistration
+from ...registration.robust import register_robust
+from ...registration.splines import DEGREE, SplineSurface
+from ...report.stopwatch import Progress
+from ...scan.cloud import PointCloud
+from ..translating import tr
 from .face_on_scan import Array, Deviations, FaceOnScan
-from .translating import tr
-from .whole_preview import WholePreview
+from .whole import WholePreview
 
 COARSE = 3000
 """Scan points per face that are looked at while a control is being moved."""
