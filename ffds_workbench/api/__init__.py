@@ -25,8 +25,8 @@ from .. import _freecad
 _freecad.activate()
 
 _HOMES = {
-    "..brep.files": ("Model",),
-    "..brep.simulation": ("Simulation",),
+    "..brep.model_files": ("Model",),
+    "..brep.simulated_scan": ("Simulation",),
     "..errors": ("FfdsError", "InputError", "RefusedError"),
     "..registration.joint": ("SensorProfile",),
     "..scan.cloud": ("PointCloud",),

@@ -9,7 +9,7 @@ from typing import Any
 
 import Part
 
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import InputError
 from . import report
 from .chains import directed

@@ -12,7 +12,7 @@ import Part
 import pytest
 from PySide2 import QtWidgets
 
-from ffds_workbench.brep import files
+from ffds_workbench.brep.model_files import model_file
 from ffds_workbench.gui.seams_view import SeamsView
 from ffds_workbench.gui.view_providers import AsBuiltView
 from ffds_workbench.objects.as_built import AsBuilt
@@ -27,7 +27,7 @@ when all modules of the window lay in one folder."""
 @pytest.mark.parametrize("colours", [(), (RED,) * 6])
 def test_a_written_document_opens_visible(hands, tmp_path, colours):
     path = tmp_path / "plate.FCStd"
-    files.write(files.Model(Part.makeBox(60, 40, 5), "Plate", files.Decoration(colours=colours)), path)
+    model_file.write(model_file.Model(Part.makeBox(60, 40, 5), "Plate", model_file.Decoration(colours=colours)), path)
     document = FreeCAD.openDocument(str(path))
     hands.wait(200)
     shown = document.Objects[0].ViewObject

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import api
-from ...brep import files, workpiece
-from ...brep.simulation import edge_points
+from ...brep import workpiece
+from ...brep.model_files import model_file
+from ...brep.simulated_scan import edge_points
 from ...objects.as_built import is_as_built
 from ...objects.scans import scan_points
-from ...registration.raster import make_raster
+from ...registration.uv_raster import make_raster
 from .. import running
 from ..preferences import preferences
 from ..preview.face_on_scan import corner_values, corners, surface_grid
@@ -35,7 +36,7 @@ def open_panel(part: Any, scan: Any) -> None:
         as_built = is_as_built(part)
         states = [(tr("As built"), part), (tr("Nominal"), part.Source)] if as_built else [(tr("Part"), part)]
         points = scan_points(scan)
-        models = [(name, files.from_object(item)) for name, item in states]
+        models = [(name, model_file.from_object(item)) for name, item in states]
 
         def measure(progress: Any) -> list[Any]:
             return [(name, api.deviation(model, points, progress)) for name, model in models]

@@ -17,12 +17,8 @@ from ...brep import workpiece
 from ...errors import RefusedError
 from ...objects.job import Settings
 from ...objects.lattices import Lattice, draw_lattice
-from ...registration.ffd import register_ffd
-from ...registration.ffds import register_ffds
-from ...registration.observed import observed_faces
-from ...registration.raster_fit import RobustSettings
-from ...registration.result import FaceRegistration
-from ...registration.robust import register_robust
+from ...registration.face import (FaceRegistration, RobustSettings, observed_faces, register_ffd, register_ffds,
+                                  register_robust)
 from ...registration.splines import DEGREE, SplineSurface
 from ...report.stopwatch import Progress
 from ...scan.cloud import PointCloud

@@ -11,7 +11,7 @@ from ...api.tuning import Tuning
 from ...brep.joint_part import joint_part
 from ...brep.workpiece import Workpiece
 from ...objects.job import Settings
-from ...registration.coverage import covered_share
+from ...registration.face import covered_share
 from ...registration.joint import JointSettings, LiveJoint, register_joint
 from ...registration.splines import SplineSurface
 from ...report.stopwatch import Progress
