@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..registration.joint.part import JointPart, SharedEdge
+from ..registration.joint import JointPart, SharedEdge
 from . import topology
 from .workpiece import Workpiece
 

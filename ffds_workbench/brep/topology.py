@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 import Part
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 
 Incidence = tuple[tuple[int, ...], ...]
 

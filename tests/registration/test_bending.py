@@ -7,10 +7,10 @@ import pytest
 
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
-from ffds_workbench.registration.bending import bending_and_gauge, curvature_variation
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.ffds import solve as fit_exactly
-from ffds_workbench.registration.normal_equations import normal_matrix, solve
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.ffds import solve as fit_exactly
+from ffds_workbench.registration.face.robust_fit.bending import bending_and_gauge, curvature_variation
+from ffds_workbench.registration.face.robust_fit.normal_equations import normal_matrix, solve
 from ffds_workbench.registration.splines import SplineSurface
 
 RADIUS, LENGTH = 20.0, 60.0
