@@ -12,11 +12,11 @@ import numpy as np
 import Part
 
 from ..brep import workpiece
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
+from ..registration.motions import difference
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.motions import difference
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud

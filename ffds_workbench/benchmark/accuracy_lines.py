@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy_cases import FLAGS, WITH_NORMALS, WITHOUT_NORMALS
+from .accuracy_cases import FLAGS, WITHOUT_NORMALS, WITH_NORMALS
 from .accuracy_sheet import LEAST_SQUARES
 
 Row = Mapping[str, Any]

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 import Part
 
-from ..brep.simulation import edge_points, target_of
-from ..registration.splines import Array
+from ..brep.simulated_scan import edge_points, target_of
+from ..registration.arrays import Array
 from ..scan.sensor import SensorSettings, SimulatedScan, Target, Truth, View, make_truth, simulate
 from ..scan.sensor.camera import place
 from ..scan.sensor.files import write_ply

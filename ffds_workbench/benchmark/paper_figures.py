@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..registration import ffd, ffds
-from ..registration.control_lattice import ControlLattice, displacement_lattice
-from ..registration.neighbours import nearest_neighbours
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import ControlLattice, displacement_lattice, ffd, ffds, nearest_neighbours
 from .interleaved import median_seconds
 from .paper_case import PaperCase
 from .paper_methods import METHODS, Judge

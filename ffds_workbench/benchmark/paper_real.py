@@ -15,12 +15,9 @@ from scipy.spatial import cKDTree
 from .. import ROOT
 from ..brep import workpiece
 from ..errors import RefusedError
-from ..registration.face import FaceGeometry
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import FaceRegistration, register_ffd, register_ffds, register_robust
+from ..registration.face_geometry import FaceGeometry
 from ..scan import files
 from ..scan.sensor import Target
 from ..scan.sensor.target import inside_trims

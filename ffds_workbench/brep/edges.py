@@ -8,11 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array, SplineSurface, basis_matrix
-from .curve_fit import crossings, fit_curve
-from .curves import Curve, Line, Spline
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE, SplineSurface, basis_matrix
 from .kinks import without_false_kinks
-from .pcurves import Pcurve
+from .occt_text import Curve, Line, Pcurve, Spline, crossings, fit_curve
 
 _GAP_SAMPLES = 257
 _GAP_SAMPLES_PER_SPAN = 4

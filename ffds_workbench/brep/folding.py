@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array, SplineSurface
-from .lattice import GridFunction
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE, SplineSurface
+from .surface_fit import GridFunction
 
 _FEWEST, _MOST = 17, 49
 _VANISHING = 1e-3

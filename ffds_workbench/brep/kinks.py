@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE
 
 _STEP = 1e-5
 _SAME = 1e-6

@@ -14,17 +14,15 @@ import numpy as np
 import Part
 
 from ..errors import RefusedError
-from ..registration.splines import Array, SplineSurface
-from .curves import Spline, read_curve
-from .displacement import FaceDisplacement
+from ..registration.arrays import Array
+from ..registration.splines import SplineSurface
 from .edges import PlacedCurve, Trace, edge_curve, largest_gap
+from .face_displacement import FaceDisplacement
 from .folding import folded
-from .instances import Instances, Locations, product, walk
-from .late_start import late
-from .lattice import approximate
-from .pcurves import Pcurve, PcurveReader, UsedEdge
-from .rewriting import NewEdge, NewFace, NewVertex, Rewriter
-from .text import BrepText, Curve3d, EdgeCurves, VertexPoint, dump, parse
+from .occt_text import (BrepText, Curve3d, EdgeCurves, Instances, Locations, NewEdge, NewFace, NewVertex, Pcurve,
+                        PcurveReader, Rewriter, Spline, UsedEdge, VertexPoint, dump, parse, product, read_curve, walk)
+from .pcurve_start import late
+from .surface_fit import approximate
 from .workpiece import Workpiece, WorkpieceFace
 
 SURFACE_TOLERANCE = 2e-6
@@ -170,7 +168,7 @@ class _Geometry:
 
     def start_late(self, edges: Mapping[int, NewEdge], vertices: Mapping[int, NewVertex]
                    ) -> tuple[dict[int, NewEdge], dict[int, NewVertex]]:
-        """The edges and vertices with tolerances for the pcurves that start late (see `late_start`), one per edge."""
+        """The edges and vertices with tolerances for the pcurves that start late (see `pcurve_start`), one per edge."""
         edges, vertices = dict(edges), dict(vertices)
         for edge, (curve, gaps) in self._gaps.items():
             starts = [vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .raster import Raster
-from .splines import Array
+from .arrays import Array
+from .uv_raster import Raster
 
 Index = NDArray[np.intp]
 Located = tuple[Array, Array, Array, NDArray[np.bool_]]

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .raster import dot
-from .splines import Array, SplineSurface
+from .arrays import Array
+from .splines import SplineSurface
+from .uv_raster import dot
 
 _CHUNK = 20000
 _SEEDS = 96

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
-Array = NDArray[np.float64]
+from .arrays import Array
+
 DEGREE = 3
 _SMALL = 40000
 _CHUNK = 4096

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..errors import RefusedError
-from ..registration.joint.sensor import SensorProfile
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.joint import SensorProfile
 from .covariogram import covariogram, fit
 
 Index = NDArray[np.intp]

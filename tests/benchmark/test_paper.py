@@ -11,9 +11,9 @@ from ffds_workbench.benchmark import page, paper_case, paper_figures
 from ffds_workbench.benchmark.interleaved import best_seconds, median_seconds
 from ffds_workbench.benchmark.paper_methods import METHODS, Judge
 from ffds_workbench.benchmark.sheet import SIZE, height, nominal
-from ffds_workbench.registration import ffds
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.result import FaceRegistration
+from ffds_workbench.registration.face import ffds
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.face_result import FaceRegistration
 
 
 @pytest.fixture(scope="module")

@@ -10,11 +10,11 @@ import pytest
 from FreeCAD import Vector
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.cutoff import SPACING, Cutoff, step
-from ffds_workbench.brep.field import local_displacements
-from ffds_workbench.brep.radial import interpolate, wendland
+from ffds_workbench.brep.continuity.cutoff import SPACING, Cutoff, step
+from ffds_workbench.brep.continuity.edge_samples import inside
+from ffds_workbench.brep.continuity.local_field import local_displacements
+from ffds_workbench.brep.continuity.radial_basis import interpolate, wendland
 from ffds_workbench.brep.rebuild import rebuild
-from ffds_workbench.brep.samples import inside
 from ffds_workbench.brep.topology import edge_traces
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots, greville

@@ -13,13 +13,14 @@ from FreeCAD import Vector
 from ffds_workbench.benchmark import topology_shapes
 from ffds_workbench.benchmark.families import through_step
 from ffds_workbench.benchmark.parts import FAMILIES
-from ffds_workbench.brep import files, workpiece
-from ffds_workbench.brep.curves import Line, Spline
+from ffds_workbench.brep import workpiece
+from ffds_workbench.brep.continuity.local_field import local_displacements
 from ffds_workbench.brep.edges import PlacedCurve, Trace
-from ffds_workbench.brep.field import local_displacements
-from ffds_workbench.brep.files import Model
-from ffds_workbench.brep.late_start import late
-from ffds_workbench.brep.pcurves import Pcurve
+from ffds_workbench.brep.model_files import model_file
+from ffds_workbench.brep.model_files.model_file import Model
+from ffds_workbench.brep.occt_text.curves import Line, Spline
+from ffds_workbench.brep.occt_text.pcurves import Pcurve
+from ffds_workbench.brep.pcurve_start import late
 from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots
 
@@ -42,7 +43,7 @@ def test_step_file_passes_the_boolean_check(mode, tmp_path):
         face = topology_shapes.busiest_and_middle(part)[0]
         moved = local_displacements(part, {face: topology_shapes.bump(part.faces[face])})
         result = rebuild(part, moved, 1e-5)
-    files.write(Model(result, "angle"), tmp_path / "angle.step")
+    model_file.write(Model(result, "angle"), tmp_path / "angle.step")
     back = Part.read(str(tmp_path / "angle.step"))
     back.check(True)
 
@@ -51,7 +52,7 @@ def test_step_file_of_a_free_form_panel_passes_the_boolean_check(tmp_path):
     """Its long edges gape most on the face whose pcurve readers make anew, and worse, unless it is the late one."""
     panel = through_step(FAMILIES["free-form-panel"](np.random.default_rng(3))).shape
     part = workpiece.read(panel)
-    files.write(Model(rebuild(part, topology_shapes.warp(part), 1e-5), "panel"), tmp_path / "panel.step")
+    model_file.write(Model(rebuild(part, topology_shapes.warp(part), 1e-5), "panel"), tmp_path / "panel.step")
     Part.read(str(tmp_path / "panel.step")).check(True)
 
 

@@ -7,10 +7,11 @@ import pytest
 
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
-from ffds_workbench.registration.bending import bending_and_gauge, curvature_variation
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.ffds import solve as fit_exactly
-from ffds_workbench.registration.normal_equations import normal_matrix, solve
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.ffds import solve as fit_exactly
+from ffds_workbench.registration.face.robust_fit.bending import bending_and_gauge, curvature_variation
+from ffds_workbench.registration.face.robust_fit.normal_equations import normal_matrix, solve
+from ffds_workbench.registration.splines import SplineSurface
 
 RADIUS, LENGTH = 20.0, 60.0
 
@@ -55,6 +56,15 @@ def test_even_bending_of_a_plane():
     for face in (plane, replace(plane, surface=replace(plane.surface, control_points=shear))):
         assert energy(face, (9, 7), 1, evenly, curvature_variation) < 1e-9 * expected
         assert energy(face, (9, 7), 1, unevenly, curvature_variation) == pytest.approx(expected, rel=1e-6)
+
+
+def test_even_bending_of_a_plane_along_the_axes():
+    """Tangents with zeros that no processor rounds: all numbers are powers of two. ∫ z_xxx² as above."""
+    corners = np.array([[[0.0, 0.0, 0.0], [0.0, 32.0, 0.0]], [[64.0, 0.0, 0.0], [64.0, 32.0, 0.0]]])
+    surface = SplineSurface(np.repeat([0.0, 64.0], 2), np.repeat([0.0, 32.0], 2), corners, degree_u=1, degree_v=1)
+    face = replace(sheet.nominal(), surface=surface)
+    cubic = lambda p: (1e-5 * p[:, 0] ** 3)[:, None]
+    assert energy(face, (9, 7), 1, cubic, curvature_variation) == pytest.approx(6e-5**2 * 64 * 32, rel=1e-6)
 
 
 @pytest.mark.parametrize("face", [sheet.nominal(), curved_face()], ids=["plane", "cylinder"])

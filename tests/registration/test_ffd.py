@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial import cKDTree
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.registration import ffd, ffds
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.face import FaceGeometry
+from ffds_workbench.registration.face import ffd, ffds
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face_geometry import FaceGeometry
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots, greville
 
 

@@ -6,9 +6,9 @@ import pytest
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.face import FaceGeometry
-from ffds_workbench.registration.ffds import basis, equidistant_grid, pseudo_inverse, register_ffds, solve
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.ffds import basis, equidistant_grid, pseudo_inverse, register_ffds, solve
+from ffds_workbench.registration.face_geometry import FaceGeometry
 from ffds_workbench.registration.trims import inside_trims
 
 RANDOM = np.random.default_rng(3)

@@ -10,15 +10,15 @@ import Part
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
-from ffds_workbench.registration.joint.boundary import find_borders, find_near_edges
-from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout
-from ffds_workbench.registration.joint.dissection import dissect
-from ffds_workbench.registration.joint.ends import exact_ends
-from ffds_workbench.registration.joint.lattice import build_lattices, cubic
+from ffds_workbench.registration.joint.data.borders import find_borders, find_near_edges
+from ffds_workbench.registration.joint.data.scan_statistics import scan_statistics
+from ffds_workbench.registration.joint.linear.cholesky import FrontCholesky, FrontLayout
+from ffds_workbench.registration.joint.linear.dissection import dissect
+from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
-from ffds_workbench.registration.joint.raster import make_places, normals
-from ffds_workbench.registration.joint.statistics import scan_statistics
-from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness
+from ffds_workbench.registration.joint.surfaces.cells import make_places, normals
+from ffds_workbench.registration.joint.surfaces.close_seams import exact_ends
+from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
 
 SPAN, TURNING = 8.0, np.deg2rad(25)
 

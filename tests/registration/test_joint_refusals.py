@@ -12,9 +12,9 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import JointSettings, register_joint
+from ffds_workbench.registration.joint.outcome import refuse_bad
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.state import start
-from ffds_workbench.registration.joint.summary import refuse_bad
 
 SIZE, THICKNESS = (40.0, 30.0), 3.0
 

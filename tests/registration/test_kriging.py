@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ffds_workbench.registration.joint.kriging import Model, Observations, Pose, condition, likeliest
+from ffds_workbench.registration.joint.body_field.kriging import Model, Observations, Pose, condition, likeliest
 
 HALF, NOISE = 30.0, 0.01
 

@@ -18,15 +18,15 @@ from scipy.spatial.transform import Rotation
 
 from ffds_workbench import api
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.simulation import target_of as sensor_target_of
+from ffds_workbench.brep.simulated_scan import target_of as sensor_target_of
+from ffds_workbench.registration.motions import angle, apply, best_fit, difference, motion, shift
 from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
-from ffds_workbench.registration.rigid.deformation import Deformation, space_of
-from ffds_workbench.registration.rigid.deformed import cells_of
-from ffds_workbench.registration.rigid.ends import Ends, beside, find_ends
-from ffds_workbench.registration.rigid.motions import angle, apply, best_fit, difference, motion, shift
-from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
+from ffds_workbench.registration.rigid.deformation.deformed_pose import cells_of
+from ffds_workbench.registration.rigid.deformation.displacement_field import Deformation, space_of
+from ffds_workbench.registration.rigid.refine.scan_rims import Ends, beside, find_ends
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
-from ffds_workbench.registration.rigid.units import plausible_scales
+from ffds_workbench.registration.rigid.unit_guess import plausible_scales
+from ffds_workbench.registration.scan_sketch import find_table, sketch_of
 from ffds_workbench.scan.sensor import SensorSettings, View, simulate
 
 FAR, TURNED = 1.0, np.deg2rad(0.5)

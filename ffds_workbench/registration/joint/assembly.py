@@ -7,14 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import blas
 
-from ..splines import Array
-from .boundary import Borders
-from .lattice import Index, cubic
+from ..arrays import Array, Index
+from .data import Borders, CellValues
+from .priors import COMPONENTS
 from .problem import Across, Problem
-from .raster import Jet, normals
 from .settings import Trust
-from .stiffness import COMPONENTS
-from .values import CellValues
+from .surfaces import Jet, cubic, normals
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..splines import Array, SplineSurface
+from ..arrays import Array
+from ..splines import SplineSurface
 from .part import JointPart
+from .prior_trust import judge
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
-from .sides import facing
+from .skins import facing
 from .solve import iterate
 from .state import State, start
-from .trust import judge
 
 _SPAN = 30.0
 _POINTS = 6000

@@ -11,19 +11,14 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ..splines import Array
-from .boundary import EdgeSides, edge_sides
-from .contact import contact_rows
-from .correspondence import trim_margin
-from .couplings import Couplings, make_couplings
-from .lattice import Index, Lattices, build_lattices
+from ..arrays import Array, Index
+from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
+from .linear import Pattern
 from .part import JointPart
-from .raster import Places, distance_to_trims, make_places, normals
+from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
+                     make_stiffness)
 from .settings import JointSettings, Trust
-from .sheet import find_pairs
-from .statistics import ScanStatistics, scan_statistics
-from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
-from .system import Pattern
+from .surfaces import Lattices, Places, build_lattices, distance_to_trims, make_places, normals
 
 _SAMPLE = 15000
 _POINTS_PER_CELL = 8.0
@@ -151,7 +146,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
-                   edge_sides(couplings.edges, lattices, cells),
+                   edge_sides(couplings.edges),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
                    None if scan_normals is None else scan_normals[pick])
 

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from .sensor import SensorProfile
+from .noise_model import SensorProfile
 
 
 @dataclass(frozen=True)

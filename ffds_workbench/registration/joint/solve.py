@@ -13,25 +13,22 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import RefusedError
-from ..splines import Array
+from ..arrays import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
-from .body import add_body, body_rows, body_tells
-from .boundary import find_borders, find_near_edges
-from .correspondence import Correspondence, correspond, make_frames
-from .ends import exact_ends
-from .misfit import misfit
+from .body_field import add_body, body_rows, body_tells
+from .data import Correspondence, correspond, find_borders, find_near_edges, make_frames, medians, tukey_means
+from .joint_result import JointRegistration
+from .lattice_refinement import finer_faces, transfer
+from .linear import solve
+from .outcome import refuse_bad, summarise
 from .part import JointPart
+from .prior_trust import is_isometric, judge
 from .problem import Problem, make_problem
-from .raster import Jet
-from .refinement import finer_faces, transfer
-from .result import JointRegistration
 from .settings import JointSettings, Stage, stages
-from .sides import facing, shown
+from .skins import facing, shown
 from .state import Kept, State, start
-from .summary import refuse_bad, summarise
-from .system import solve
-from .trust import is_isometric, judge
-from .values import medians, tukey_means
+from .surfaces import Jet, exact_ends
+from .uncertainty import misfit
 
 Progress = Callable[[str, float], None]
 _FIRM = 0.9

@@ -8,15 +8,13 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ..splines import Array
+from ..arrays import Array, Index
 from .assembly import strain_blocks
-from .body import BodyRows
-from .boundary import Borders, NearEdges
-from .cholesky import FrontCholesky
-from .lattice import Index
+from .body_field import BodyRows
+from .data import Borders, CellValues, NearEdges, nothing
+from .linear import FrontCholesky
 from .problem import Across, Problem
 from .settings import Trust
-from .values import CellValues, nothing
 
 _TYPICAL, _SEEN = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of

@@ -6,19 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import FAILED, Alignment
+from ..arrays import Array
+from ..scan_sketch import Plane, Sketch, find_table, sketch_of
+from .alignment_result import FAILED, Alignment
+from .deformation import NOT, SOFT, STIFF
+from .evidence import examine
 from .hypothesis import Verified, best_of, nearest_of, turned_on, verify, worth_a_look
+from .model import Target
 from .polish import polish
-from .proposals import LOCAL, THOROUGH, Stage, propose
 from .quick import quickly
-from .sketch import Plane, Sketch, find_table, sketch_of
-from .smooth import NOT, SOFT, STIFF
-from .starts import starts_around, starts_of
-from .target import Target
-from .units import plausible_scales
+from .search import LOCAL, THOROUGH, Stage, propose, starts_around, starts_of
+from .unit_guess import plausible_scales
 from .verdict import answer_of, no_answer
-from .verify import examine
 
 _CERTAIN = 0.95
 """Certainty from which the surroundings of the best pose are not searched once more."""

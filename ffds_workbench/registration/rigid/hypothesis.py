@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..splines import Array
-from .fine import refine
-from .motions import angle, apply, shift
+from ..arrays import Array
+from ..motions import angle, apply, shift
+from ..scan_sketch import Plane, Sketch
+from .deformation import Rounds
+from .evidence import Evidence, examine, facing_normals, is_rough
+from .model import Target
 from .polish import is_deformed
-from .sketch import Plane, Sketch
-from .smooth import Rounds
-from .target import Target
-from .verify import Evidence, examine, facing_normals, is_rough
+from .refine import refine
 
 _ON = 0.008
 """Distance, as a share of the part's size, from which a point may lie on the part with its normal turned round."""

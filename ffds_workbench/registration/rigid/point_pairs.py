@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import InputError
-from ..splines import Array
-from .motions import best_fit
+from ..arrays import Array
+from ..motions import best_fit
 
 _NARROW = 0.05
 """Points this near to a line, as a share of their spread along it, leave the turn about it open."""

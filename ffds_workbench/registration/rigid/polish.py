@@ -8,17 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..splines import Array
-from .deformation import Deformation
-from .deformed import settle
-from .ends import Ends, beside, find_ends
-from .fine import gauss_newton, refine, tukey
-from .motions import angle, apply, step, twist_rows
+from ..arrays import Array
+from ..motions import angle, apply, step, twist_rows
+from ..parallel import workers
+from ..robust_weights import tukey
+from ..scan_sketch import Sketch, thin
+from .deformation import STIFF, Deformation, match, settle
+from .evidence import is_rough
+from .model import Target, once_for_target
+from .refine import Ends, beside, find_ends, gauss_newton, refine
 from .search import field_of
-from .sketch import Sketch, thin
-from .smooth import STIFF, match
-from .target import Target, once_for_target, workers
-from .verify import is_rough
 
 _WIDE, _DEFORMED = 0.12, 0.002
 """Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""

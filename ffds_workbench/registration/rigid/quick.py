@@ -7,20 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import Alignment
-from .deformation import Deformation
-from .fine import refine
+from ..arrays import Array
+from ..motions import motion
+from ..scan_sketch import Plane, Sketch, find_table, sketch_of
+from .alignment_result import Alignment
+from .deformation import NOT, SOFT, STIFF, Deformation, Match
+from .evidence import examine, is_rough, matched, misfit_of, weigh
 from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import motion
+from .model import Target
 from .polish import is_deformed, polish_deformed, polish_rigid
-from .proposals import QUICK, propose
-from .sketch import Plane, Sketch, find_table, sketch_of
-from .smooth import NOT, SOFT, STIFF, Match
-from .starts import turns_up_to
-from .target import Target
+from .refine import refine
+from .search import QUICK, propose, turns_up_to
 from .verdict import FAILS, answer_of
-from .verify import examine, is_rough, matched, misfit_of, weigh
 
 _FEWEST = 50
 _ROTATIONS, _TURN = 12, 0.5

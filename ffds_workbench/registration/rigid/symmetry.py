@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..splines import Array
-from .fine import refine
-from .motions import angle, apply, even_rotations, motion, turn_name
-from .target import Target, once_for_target
+from ..arrays import Array
+from ..motions import angle, apply, even_rotations, motion, turn_name
+from .model import Target, once_for_target
+from .refine import refine
 
 _EQUAL_MOMENTS = 0.04
 _ANGLES = 72

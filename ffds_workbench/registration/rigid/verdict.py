@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
+from ..arrays import Array
+from ..motions import angle, apply, shift
+from ..scan_sketch import Plane, Sketch
+from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
 from .hypothesis import MARGIN, SAME_SHIFT, SAME_TURN, Verified
-from .motions import angle, apply, shift
+from .model import Target
 from .polish import polish
-from .sketch import Plane, Sketch
 from .symmetry import Symmetry, symmetry_of
-from .target import Target
-from .units import unit_name
+from .unit_guess import unit_name
 
 _COUNTED = 1_000
 """Points for the fitness."""

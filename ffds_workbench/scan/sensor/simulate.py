@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from . import errors
 from .camera import Camera, DepthPicture, depth_picture, pixel_size, place, sees
 from .settings import SensorSettings

@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...registration.face import FaceGeometry
-from ...registration.splines import Array
+from ...registration.arrays import Array
+from ...registration.face_geometry import FaceGeometry
 
 Displace = Callable[[Array, Array], Array]
 """(uv (n, 2), nominal points (n, 3)) to displacements (n, 3) in mm."""

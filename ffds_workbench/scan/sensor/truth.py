@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .camera import sees
 from .settings import SensorSettings
 from .simulate import cameras, in_field
