@@ -2,6 +2,7 @@
 """Turns the last state of the joint solve into its result, or refuses it."""
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -77,8 +78,9 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     displacements = tuple(problem.lattices.spline(index, state.control_points)
                           for index in range(len(problem.part.faces)))
+    kept = replace(state.kept, factor=None, nearest=None, near_edges=None)
     return JointRegistration(
-        displacements, partial(assess, problem, state, displacements),
+        displacements, partial(assess, problem, replace(state, kept=kept), displacements),
         solids=tuple(_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),

@@ -146,7 +146,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
-                   edge_sides(couplings.edges, lattices, cells),
+                   edge_sides(couplings.edges),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
                    None if scan_normals is None else scan_normals[pick])
 

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ..priors import EdgeSamples
-from ..surfaces import Lattices, Places, Samples, by_face, concatenate
+from ..surfaces import Samples, concatenate
 
 _REACH = 4.0
 _FARTHEST = 2.0
@@ -82,22 +82,12 @@ class EdgeSides:
     sharp: NDArray[np.bool_]
 
 
-def edge_sides(edges: EdgeSamples, lattices: Lattices, cells: Places) -> EdgeSides:
-    """Sides of the nominal edges, from the nearest cells of both faces."""
-    signs, out = np.ones((2, len(edges.edge))), []
-    still = np.zeros((lattices.count, 3))
-    centres = cells.nominal.position[cells.inside]
-    face = np.repeat(lattices.face_of_span, cells.inside.sum(axis=1))
-    tree = cKDTree(by_face(centres, face), balanced_tree=False, compact_nodes=False)
-    for k, side in enumerate((edges.first, edges.second)):
-        across = np.cross(edges.direction, side.normals(still))
-        nearest = tree.query(by_face(side.nominal[0], side.face))[1]
-        lean = np.einsum("nx,nx->n", centres[nearest] - side.nominal[0], across) * (face[nearest] == side.face)
-        signs[k] = np.where(np.bincount(edges.edge, weights=lean)[edges.edge] > 0, -1.0, 1.0) if len(lean) else 1.0
-        out.append(signs[k][:, None] * across)
-    normal = edges.first.normals(still), edges.second.normals(still)
-    convex = np.einsum("nx,nx->n", out[0], normal[1]) > 0
-    return EdgeSides(signs, convex & (np.einsum("nx,nx->n", *normal) < _SHARP))
+def edge_sides(edges: EdgeSamples) -> EdgeSides:
+    """Sides of the nominal edges, as the faces' loops run."""
+    normal = [side.nominal_normals for side in (edges.first, edges.second)]
+    sign = np.where(edges.left, 1.0, -1.0)
+    convex = np.einsum("nx,nx->n", sign[0][:, None] * np.cross(edges.direction, normal[0]), normal[1]) > 0
+    return EdgeSides(sign, edges.angled & convex & (np.einsum("nx,nx->n", *normal) < _SHARP))
 
 
 @dataclass(frozen=True)

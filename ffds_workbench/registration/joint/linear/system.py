@@ -10,7 +10,8 @@ from ..surfaces import Lattices
 from .cholesky import FrontCholesky, FrontLayout
 from .dissection import dissect
 
-_CG_STEPS = 25
+_CG_STEPS = 12
+"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
 _CG_TOLERANCE = 3e-3
 
 

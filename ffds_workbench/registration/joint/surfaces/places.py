@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from ...arrays import Array, Index
@@ -50,12 +51,17 @@ class Samples:
         tangents = self.tangents(control_points)
         return _unit(np.cross(tangents[0], tangents[1])) * self.outward[:, None]
 
+    @property
+    def nominal_normals(self) -> Array:
+        """Unit normals of the nominal faces out of the material: (n, 3)."""
+        return _unit(np.cross(self.nominal[1], self.nominal[2])) * self.outward[:, None]
+
     def matrix(self, count: int, order: int = 0) -> csr_matrix:
         """Sparse rows that give d (or d_u, d_v: order 1, 2) from ``count`` control points: (n, count)."""
         start = np.arange(len(self) + 1) * 16
         return csr_matrix((self.weights[order].ravel(), self.controls.ravel(), start), shape=(len(self), count))
 
-    def take(self, which: Index) -> Samples:
+    def take(self, which: Index | NDArray[np.bool_]) -> Samples:
         return Samples(self.face[which], self.span[which], self.controls[which], self.weights[:, which],
                        self.nominal[:, which], self.outward[which])
 

@@ -39,7 +39,8 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontChole
     if ratio < _SAME:
         return factor.inverse_blocks(), factor
     prior *= 1 / ratio - 1
-    return FrontCholesky(problem.pattern.layout, equations.blocks + prior).inverse_blocks(), factor
+    prior += equations.blocks
+    return FrontCholesky(problem.pattern.layout, prior).inverse_blocks(), factor
 
 
 def _told(problem: Problem, factor: FrontCholesky, prior: Array) -> float:
