@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ...arrays import Array, Index
 
-_LEAF = 100
+_LEAF_NODES = 100
 """Nodes that are not cut any further: a dense matrix of theirs is as fast."""
 _UNBALANCE = 0.1
 """Nodes of a separator that a difference of one node between its sides is worth."""
@@ -56,7 +56,7 @@ def _split(graph: csr_matrix, position: Array, nodes: Index, groups: list[Index]
     """Append the groups of a set of nodes: the parts on both sides of a separator, then the separator."""
     separator: Index = np.arange(len(nodes))
     sides: tuple[Index, ...] = ()
-    if len(nodes) > _LEAF:
+    if len(nodes) > _LEAF_NODES:
         separator, sides = _cut(graph[nodes][:, nodes], position[nodes])
     for side in sides:
         _split(graph, position, nodes[side], groups)

@@ -73,7 +73,8 @@ class Pattern:
         return bsr_matrix((blocks, self.indices, self.indptr), shape=(3 * self.count, 3 * self.count))
 
 
-def solve(pattern: Pattern, blocks: Array, right: Array, factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
+def solve_normal_equations(pattern: Pattern, blocks: Array, right: Array,
+                           factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
     """Solve the normal equations; with a factor of a near matrix by conjugate gradients, else (or if slow) anew.
 
     Parameters
