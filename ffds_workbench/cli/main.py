@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 from .. import RESOURCES, __version__
 from ..benchmark import NAMES as BENCHMARKS
+from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from ..scan.units import MILLIMETRES
 from . import align, seams, sensor, simulate, weld
@@ -47,6 +48,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         return _fail(sys.stderr, error)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for name, label in (("model", getattr(options, "object", None)), ("nominal", None), ("as_built", None)):
+        if isinstance(path := getattr(options, name, None), Path):
+            reading.begin(path, label)  # beside what else there is to load
     with quiet_libraries() as (out, err):
         progress = ProgressLine(err)
         try:
@@ -231,10 +235,10 @@ def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 
 def _read(api_module: api, options: argparse.Namespace, progress: ProgressLine) -> tuple[api.Model, api.PointCloud]:
-    progress(f"Reading {options.model}")
-    model = api_module.read_model(options.model, options.object)
     progress(f"Reading {', '.join(str(path) for path in options.scan)}")
-    return model, api_module.read_scan(options.scan, options.scan_unit)
+    scan = api_module.read_scan(options.scan, options.scan_unit)
+    progress(f"Reading {options.model}")
+    return api_module.read_model(options.model, options.object), scan
 
 
 def _written(*paths: Path | None) -> str:

@@ -72,10 +72,10 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
                          "touching.")
     robot, settings, limits = seam_options.read_options(options)
     folder = make_folder(options.out)
-    progress(f"Reading {options.model}")
-    model = api.read_model(options.model, options.object)
     progress(f"Reading {', '.join(map(str, options.scan))}")
     scan = api.read_scan(options.scan, options.scan_unit)
+    progress(f"Reading {options.model}")
+    model = api.read_model(options.model, options.object)
     wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
     aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
     result = api.register(model, scan if aligned is None else aligned.scan, options.face, freeze=options.freeze,
