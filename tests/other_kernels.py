@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Prints the OPENBLAS_CORETYPE to run tests under once more, or nothing where there is no other to run.
 
-The kernels of OpenBLAS differ in the last bits of a sum. Haswell's, which Zen shares and most desktops use, multiply and
-add in one step; those of the newest servers add in other blocks; Prescott's, which any x86-64 can run, do neither.
+The kernels of OpenBLAS differ in the last bits of a sum. Haswell's, which Zen shares and most desktops use, multiply
+and add in one step; those of the newest servers add in other blocks; Prescott's, which any x86-64 can run, do neither.
 """
 from __future__ import annotations
 
