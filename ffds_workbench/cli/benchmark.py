@@ -53,9 +53,9 @@ def _world(options: argparse.Namespace) -> dict[str, Any]:
 
 def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
     """Run one and say where its tables are."""
-    from .. import _freecad
+    from .. import find_freecad
 
-    _freecad.activate()
+    find_freecad.activate()
     folder = weld.make_folder(options.out)
     measurement = importlib.import_module(f"ffds_workbench.benchmark.{options.name}")
     text = measurement.run(folder, progress, **options.more(options))

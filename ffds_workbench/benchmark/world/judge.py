@@ -25,7 +25,7 @@ _CONVERGED = 1e-10
 _GRID = 24
 _DOUBTFUL = 3.0
 """A distance by Newton's steps this many times the median of its face's is looked for anew by OCCT's search."""
-_EDGE_SAMPLES = 33
+_ALONG = 33
 _POLYLINE = 400
 _MESH = 1e-3
 """Largest distance of the mesh from the faces, of the diagonal of the part's box: some five times finer than FreeCAD
@@ -151,7 +151,7 @@ def _gap(shape: Part.Shape) -> float:
             found = None if edge.Degenerated else face.curveOnSurface(edge)
             if found is not None:
                 curve, first, last = found[:3]
-                pairs = zip(np.linspace(first, last, _EDGE_SAMPLES), np.linspace(*edge.ParameterRange, _EDGE_SAMPLES),
+                pairs = zip(np.linspace(first, last, _ALONG), np.linspace(*edge.ParameterRange, _ALONG),
                             strict=True)
                 largest = max([largest, *(_between(value, curve.value(s), edge.valueAt(t)) for s, t in pairs)])
     return largest

@@ -31,8 +31,8 @@ LIMIT = 900.0
 _SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 _STEPS = ("make", "register", "judge")
 _STEP = """
-from ffds_workbench import _freecad
-_freecad.activate()
+from ffds_workbench import find_freecad
+find_freecad.activate()
 from ffds_workbench.benchmark.world import stages
 stages.main()
 """

@@ -35,8 +35,8 @@ class Settings:
 
     def __post_init__(self) -> None:
         if not (1 <= self.views <= 8 and self.points >= 1 and self.sigma >= 0 and self.scale > 0):
-            raise InputError("A part is seen from 1 to 8 views, by a point or more, with noise that is not negative, at "
-                             "a scale above zero.")
+            raise InputError("A part is seen from 1 to 8 views, by a point or more, with noise that is not negative, "
+                             "at a scale above zero.")
 
 
 def check_deformations(names: Iterable[str]) -> None:
