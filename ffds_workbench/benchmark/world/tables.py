@@ -51,7 +51,8 @@ def lines(rows: Sequence[Row]) -> list[AccuracyLine]:
     found = [_at_least(what, sum(map(holds, chosen)) / len(chosen), asked) for what, chosen, holds, asked in shares
              if chosen]
     bad = sum(row["outcome"] in ("crash", "timeout", "silent", "not judged", "no case") for row in rows)
-    found.append(AccuracyLine("Crashes, kills, steps without an end, exits without a line", float(bad), "at most 0", bad == 0))
+    found.append(AccuracyLine("Crashes, kills, steps without an end, exits without a line", float(bad), "at most 0",
+                              bad == 0))
     for key, where in (("bands", "faces"), ("edge_bands", "edges")):
         for flag in FLAGS:
             places, held = (sum(row[key][flag][what] for row in written if key in row) for what in ("places", "held"))
