@@ -37,7 +37,7 @@ def shared_edges(workpiece: Workpiece, adjacency: topology.Topology,
     fractions = np.linspace(0.0, 1.0, samples)
     edges = []
     for index, edge in enumerate(workpiece.shape.Edges):
-        faces, uv, left, points = [], [], [], topology.edge_points(edge, fractions)
+        faces, uv, left, points = [], [], [], topology.points_on_edge(edge, fractions)
         for face in adjacency.edge_faces[index]:
             own = workpiece.faces[face].face
             use = own.Edges[adjacency.face_edges[face].index(index)]  # turned as the face's loop runs

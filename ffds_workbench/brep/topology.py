@@ -142,7 +142,7 @@ class EdgeTrace:
     uv: Array
 
 
-def edge_points(edge: Part.Edge, fractions: Array) -> Array:
+def points_on_edge(edge: Part.Edge, fractions: Array) -> Array:
     """Points of an edge at fractions 0…1 of its parameter range: (n,) to (n, 3) in mm."""
     if edge.Degenerated:
         return np.repeat([tuple(edge.Vertexes[0].Point)], len(fractions), axis=0)
@@ -153,7 +153,7 @@ def edge_points(edge: Part.Edge, fractions: Array) -> Array:
 
 def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[EdgeTrace]:
     """The traces of an edge on a face at fractions 0…1 of its range: one, or two where it is a seam."""
-    points = edge_points(edge, fractions)
+    points = points_on_edge(edge, fractions)
     traces: dict[str, EdgeTrace] = {}
     for side in (edge, edge.reversed()):
         pcurve = face.curveOnSurface(side)

@@ -10,7 +10,7 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
 from ffds_workbench.registration.joint.problem import make_problem
-from ffds_workbench.registration.joint.skins import facing
+from ffds_workbench.registration.joint.skins import candidate_outward_normals
 
 
 @pytest.mark.parametrize(("thickness", "noise", "density"), [(2.0, 0.12, 3.0), (3.0, 0.13, 6.0), (1.0, 0.05, 12.0)])
@@ -26,7 +26,7 @@ def test_both_skins_of_a_thin_sheet_are_told_apart(thickness, noise, density):
     problem = make_problem(joint_part(read(Part.makeBox(*size, thickness))), scan, JointSettings(), {})
     chosen = np.random.default_rng(problem.settings.seed).permutation(len(scan))[: len(problem.sample)]
     assert (scan[chosen] == problem.sample).all()
-    sides, told = facing(problem, 3.0)
+    sides, told = candidate_outward_normals(problem, 3.0)
     right = np.sign(sides[0][:, 2]) == np.where(upper[chosen], 1.0, -1.0)
     # Around the rims normals turn: half a thickness wide is a neighbourhood, and 0.6 are to the next point with a normal.
     assert len(sides) == 1 and not told and right.mean() > 1 - 1.1 * thickness * 2 * size.sum() / size.prod()

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays import Array, Index
-from ..normal_sides import turn_to_one_side
+from ..normal_sides import orient_normals
 from .data import ScanStatistics
 
 _FEWEST, _MOST = 12, 100
@@ -56,8 +56,8 @@ def skin_points(scan: Array, part: cKDTree, reach: float, statistics: ScanStatis
     points = _even(some, count)
     wide = np.pi * (_WITHIN * thickness) ** 2
     enough = max(_FEWEST, (2 * statistics.noise / _TURN) ** 2 * np.pi / wide) / wide
-    share = min(1.0, enough / statistics.density)
-    pool = scan if share == 1.0 else scan[generator.random(len(scan)) < share]
+    share = min(1.0, max(enough / statistics.density, count / len(scan)))
+    pool = scan if share == 1.0 else generator.choice(scan, int(share * len(scan)), replace=False, shuffle=False)
     density = np.pi * share * statistics.density
     neighbours = max(_FEWEST, 2 * statistics.noise * np.sqrt(density) / _TURN)
     if neighbours > density * (_WITHIN * thickness) ** 2:
@@ -67,7 +67,7 @@ def skin_points(scan: Array, part: cKDTree, reach: float, statistics: ScanStatis
     around = pool[index[usual]]
     around = around - around.mean(axis=1, keepdims=True)
     normals = np.linalg.eigh(np.matmul(around.swapaxes(1, 2), around))[1][:, :, 0]
-    return SkinPoints(points[usual], *turn_to_one_side(points[usual], normals))
+    return SkinPoints(points[usual], *orient_normals(points[usual], normals))
 
 
 def _even(points: Array, count: int) -> Array:
