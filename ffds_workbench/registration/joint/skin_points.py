@@ -14,7 +14,7 @@ from .data import ScanStatistics
 _FEWEST, _MOST = 12, 100
 """Neighbours that a plane is put through."""
 _TURN = 0.15
-"""Standard deviation in rad that noise may turn a plane by. Theory: in a disc of radius r with k points it is 2σ/(r√k)."""
+"""Standard deviation in rad that noise may turn a plane by; in a disc of radius r with k points it is 2σ/(r√k)."""
 _WITHIN, _BEYOND = 0.5, 2.0
 """Radius of a neighbourhood over the thickness up to which it holds points of one skin, and from which those of both
 turn its plane no more: two parallel planes have the normal of one."""
