@@ -11,8 +11,8 @@ import Part
 from ..brep.model_files import Model, model_file
 from ..errors import InputError
 from ..output import check_writable, replacing
-from ..report import picture as drawing
 from ..report import record
+from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
 from ..scan.cloud import PointCloud
 from .deviating import Deviation

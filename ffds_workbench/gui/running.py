@@ -11,9 +11,9 @@ from typing import Any
 import FreeCADGui as Gui
 
 from ..errors import FfdsError, RefusedError
-from .panel import ProgressBar
 from .qt import QtCore, QtWidgets, execute
 from .translating import said, tr
+from .widgets import ProgressBar
 
 ACTIONS = "ffds_workbench.objects.actions"
 WORKER = "FfdsWorker"

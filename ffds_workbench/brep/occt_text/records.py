@@ -22,7 +22,7 @@ _SURFACE_LENGTH = {"1": 12, "2": 13, "3": 14, "4": 13, "5": 14}
 
 
 @dataclass(frozen=True)
-class Reference:
+class ShapeReference:
     """A use of a shape: orientation ('+', '-', 'i', 'e'), position in `BrepText.shapes`, location (0: none)."""
 
     orientation: str
@@ -100,7 +100,7 @@ class TShape:
     kind: str
     geometry: VertexPoint | EdgeCurves | FaceSurface | None
     flags: str
-    children: tuple[Reference, ...]
+    children: tuple[ShapeReference, ...]
 
 
 @dataclass
@@ -112,7 +112,7 @@ class BrepText:
     curves_3d: list[str]
     surfaces: list[str]
     shapes: list[TShape]
-    root: Reference
+    root: ShapeReference
 
 
 def parse(text: str) -> BrepText:
@@ -155,7 +155,7 @@ def dump(brep: BrepText) -> str:
     return "\n".join(parts)
 
 
-def _reference_text(reference: Reference, count: int) -> str:
+def _reference_text(reference: ShapeReference, count: int) -> str:
     return f"{reference.orientation}{count - reference.shape} {reference.location} "
 
 
@@ -252,7 +252,7 @@ def surface_end(tokens: list[str], start: int) -> int:
     raise ValueError(f"unknown surface type {kind}")
 
 
-def _shapes(tokens: list[str], count: int) -> tuple[list[TShape], Reference]:
+def _shapes(tokens: list[str], count: int) -> tuple[list[TShape], ShapeReference]:
     read = {"Ve": _vertex, "Ed": _edge, "Fa": _face}
     shapes, at = [], 0
     for _ in range(count):
@@ -270,8 +270,8 @@ def _shapes(tokens: list[str], count: int) -> tuple[list[TShape], Reference]:
     return shapes, _reference(tokens[at], tokens[at + 1], count)
 
 
-def _reference(shape: str, location: str, count: int) -> Reference:
-    return Reference(shape[0], count - int(shape[1:]), int(location))
+def _reference(shape: str, location: str, count: int) -> ShapeReference:
+    return ShapeReference(shape[0], count - int(shape[1:]), int(location))
 
 
 def _vertex(tokens: list[str], at: int) -> tuple[VertexPoint, int]:

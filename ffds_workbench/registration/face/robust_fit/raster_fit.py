@@ -21,7 +21,7 @@ from ..control_lattice import ControlLattice
 from .bending import bending_and_gauge, curvature_variation
 from .face_points import FacePoints
 from .layers import Layers, SmallMotion, plateau, tukey
-from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
+from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve_banded
 
 Index = NDArray[np.intp]
 
@@ -29,10 +29,10 @@ _NOISE_CUT = 4.685
 """Tukey's constant: 95 % efficiency on normal noise."""
 _RIM_BLOCK = 8
 """Points near the trims are judged in blocks of 8 × 8 cells."""
-_STRAY, _OFF = 0.1, 0.2
+_STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
 """A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
 0.2 standard deviations of the surface, or three of its own."""
-_BENDING_SHARE, _EVEN_SHARE, _LONGEST = 0.1, 0.6, 20.0
+_BENDING_SHARE, _EVEN_SHARE, _LONGEST_LENGTH = 0.1, 0.6, 20.0
 """Price of all bending and of uneven bending, as shares of what bending cost before; and the longest length in mm over
 which curvature is expected to change."""
 _MOST_NOISIER = 1.5
@@ -75,7 +75,7 @@ class RobustSettings:
 
 
 @dataclass(frozen=True)
-class State:
+class FitState:
     """A displacement on the raster, and the data behind it.
 
     Attributes
@@ -112,7 +112,7 @@ class _Graph:
 
 
 @dataclass(frozen=True)
-class _Cells:
+class _CellSums:
     """Data against a surface, per cell (m·n,): sums of weights and of weighted residuals, and the number of points with
     weight; and the absolute residuals of some of them."""
 
@@ -138,7 +138,7 @@ class RasterFit:
         self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
 
-    def allow_even_bending(self, state: State) -> None:
+    def allow_even_bending(self, state: FitState) -> None:
         """From here on a plane may bend, as long as it bends evenly: what its curvature changes by costs instead.
 
         Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
@@ -150,10 +150,10 @@ class RasterFit:
         variation = curvature_variation(self.surface, self.lattice, self.layout)
         bent = self.layout.energy(self.bending, state.control_points)
         varied = self.layout.energy(variation, state.control_points)
-        share = min(_EVEN_SHARE * bent / max(varied, 1e-300), _LONGEST**2)
+        share = min(_EVEN_SHARE * bent / max(varied, 1e-300), _LONGEST_LENGTH**2)
         self.bending = _BENDING_SHARE * self.bending + share * variation
 
-    def moved(self, motion: SmallMotion) -> State:
+    def moved(self, motion: SmallMotion) -> FitState:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""
         raster = self.raster
         fields = [motion.displacement(raster.position), np.cross(motion.turn, raster.tangent_u),
@@ -161,10 +161,10 @@ class RasterFit:
         if raster.flat:
             fields = [dot(f, raster.normal)[:, None] * raster.normal for f in fields]
         d, d_x, d_y = fields
-        return State(d, d_x, d_y)
+        return FitState(d, d_x, d_y)
 
-    def step(self, state: State, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
-             gate: float) -> State:
+    def step(self, state: FitState, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
+             gate: float) -> FitState:
         """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
@@ -185,18 +185,18 @@ class RasterFit:
         new_noise = min(1.4826 * float(np.median(seen.spread)), _MOST_NOISIER * noise) if len(seen.spread) else noise
         return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
-    def look(self, state: State, layers: Layers, gate: float) -> tuple[Array, Array]:
+    def look(self, state: FitState, layers: Layers, gate: float) -> tuple[Array, Array]:
         """Heights of layers over the surface of a state, and their weights about it."""
         _, residual, weight = self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * layers.noise))
         return residual, weight
 
-    def field(self, state: State) -> SplineSurface:
+    def field(self, state: FitState) -> SplineSurface:
         """The displacement of a state as a spline in mm."""
         lattice = self.lattice
         return SplineSurface(lattice.knots_u, lattice.knots_v, state.control_points @ self.directions,
                              periodic_u=lattice.periodic_u, periodic_v=lattice.periodic_v)
 
-    def _graph(self, state: State) -> _Graph:
+    def _graph(self, state: FitState) -> _Graph:
         raster = self.raster
         if raster.flat:
             height, slope_x, slope_y = (dot(f, raster.normal) for f in (state.d, state.d_x, state.d_y))
@@ -232,8 +232,8 @@ class RasterFit:
         near = np.abs(residual) <= gate
         total, hits = (np.bincount(block, some, rows * columns) for some in (None, near))
         mean = np.bincount(block, np.where(near, residual, 0), rows * columns) / np.maximum(hits, 1)
-        off = noise * np.maximum(_OFF, 3 / np.sqrt(np.maximum(hits, 1)))
-        used = (hits >= (1 - _STRAY) * total) & (np.abs(mean) <= off)
+        off = noise * np.maximum(_OFF_SURFACE, 3 / np.sqrt(np.maximum(hits, 1)))
+        used = (hits >= (1 - _STRAY_SHARE) * total) & (np.abs(mean) <= off)
         return rim.part(np.flatnonzero(used[block] & near))
 
     def _parts(self, graph: _Graph, data: FacePoints | SurfaceCoordinates | Layers, noise: float, gate: float
@@ -251,7 +251,7 @@ class RasterFit:
         else:
             yield data, 1
 
-    def _cells(self, graph: _Graph, parts: Iterable[tuple[SurfaceCoordinates | Layers, int]], gate: float) -> _Cells:
+    def _cells(self, graph: _Graph, parts: Iterable[tuple[SurfaceCoordinates | Layers, int]], gate: float) -> _CellSums:
         """Weigh the data and sum them up cell by cell."""
         cells = len(self.raster.inside)
         sums, spread = np.zeros((3, cells)), []
@@ -262,7 +262,7 @@ class RasterFit:
                 total += np.bincount(cell, values, cells)
             spread.append(np.abs(residual[::every][weight[::every] > 0]))
         sums[:, self.ignored] = 0
-        return _Cells(sums[0], sums[1], sums[2], np.concatenate(spread) if spread else np.zeros(0))
+        return _CellSums(sums[0], sums[1], sums[2], np.concatenate(spread) if spread else np.zeros(0))
 
     def _weighed(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> tuple[Index, Array, Array]:
         """Material cell, residual and weight of scan points or layers."""
@@ -304,12 +304,12 @@ class RasterFit:
         matrix += stiffness * settings.stiffness * self.bending + settings.gauge * self.gauge
         values = (row * (data * target)[:, None]).reshape(*shape, k)
         right = self.layout.right_side(values, self.basis_u[0], self.basis_v[0])
-        return self.layout.control_points(solve(matrix, right))
+        return self.layout.control_points(solve_banded(matrix, right))
 
-    def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> State:
+    def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> FitState:
         fields = []
         for a, b in ((0, 0), (1, 0), (0, 1)):
             values = tensor_product(self.basis_u[a], self.basis_v[b], control_points)
             fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
         d, d_x, d_y = fields
-        return State(d, d_x, d_y, control_points, weights, points, noise)
+        return FitState(d, d_x, d_y, control_points, weights, points, noise)

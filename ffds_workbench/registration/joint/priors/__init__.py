@@ -4,9 +4,9 @@ edges, poles, thickness, edge angles, frozen faces), `sheet_pairs` (the two skin
 solids).
 """
 from .contacts import contact_rows
-from .couplings import Couplings, EdgeSamples, directions, make_couplings, pose_weight
+from .couplings import Couplings, SharedEdgePlaces, directions, make_couplings, pose_weight
 from .sheet_pairs import find_pairs, parameters
 from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
 
-__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "Couplings", "EdgeSamples", "Stiffness", "contact_rows",
+__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "Couplings", "SharedEdgePlaces", "Stiffness", "contact_rows",
            "directions", "find_pairs", "make_couplings", "make_stiffness", "parameters", "pose_weight"]

@@ -23,27 +23,27 @@ from ...trims import inside_polylines
 from .rims import Rims, rims_of
 
 Result = TypeVar("Result")
-_SAMPLES = 24_000
-_COARSE = 2_500
-_VIEWS = 64
+_SAMPLE_COUNT = 24_000
+_EVEN_COUNT = 2_500
+_VIEW_COUNT = 64
 _AREA_GRID = 40
-_TURN = 0.35
+_LARGEST_TURN = 0.35
 """Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
 _TURN_LENGTH = 0.04
 """A normal turned by 1 rad counts as this share of the part's size in the search for the nearest sample."""
-_FACING = 0.3
+_FACING_COSINE = 0.3
 """Cosine below which a sample does not face the way a point's normal does."""
-_GRAZING = 0.15
+_GRAZING_COSINE = 0.15
 """Cosine under which a surface is too oblique for a camera to see it."""
 
-_FLAT = 1e-9
+_FLAT_SHADOW = 1e-9
 """Width of a shadow, as a share of its length, that is none."""
-_FACE_ON = 0.6
+_FACE_ON_COSINE = 0.6
 """Cosine from which a view proves that a sample can be seen: the depth buffer is too coarse for obliquer ones."""
 
 
 @dataclass(frozen=True)
-class Samples:
+class SurfaceSamples:
     """Points of the nominal faces.
 
     Attributes
@@ -62,9 +62,9 @@ class Samples:
     area: Array
     face: NDArray[np.intp]
 
-    def __getitem__(self, chosen: NDArray) -> Samples:
-        return Samples(self.points[chosen], self.normals[chosen], self.tangents[chosen], self.curvature[chosen],
-                       self.area[chosen], self.face[chosen])
+    def __getitem__(self, chosen: NDArray) -> SurfaceSamples:
+        return SurfaceSamples(self.points[chosen], self.normals[chosen], self.tangents[chosen], self.curvature[chosen],
+                              self.area[chosen], self.face[chosen])
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,15 +80,15 @@ class Target:
     rims : where the faces visibly end
     """
 
-    samples: Samples
-    even: Samples
+    samples: SurfaceSamples
+    even: SurfaceSamples
     views: Array
     visible: NDArray[np.bool_]
     rims: Rims
 
     @cached_property
     def kept(self) -> dict[Any, Any]:
-        """What ``once_for_target`` keeps."""
+        """What ``kept_with_target`` keeps."""
         return {}
 
     @cached_property
@@ -130,7 +130,7 @@ class Target:
                                         workers=workers(points))[1]
         index = np.where(index < len(self.samples.area), index, 0)
         distance = np.linalg.norm(points - self.samples.points[index], axis=1)
-        facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING
+        facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING_COSINE
         return np.where(facing & (distance < reach), distance, np.inf), index
 
     @cached_property
@@ -149,19 +149,19 @@ class Target:
         return float(np.sqrt(self.samples.area.sum() / len(self.samples.area)))
 
     @cached_property
-    def light(self) -> Target:
+    def coarse(self) -> Target:
         """The same with a quarter of the samples, for poses that are only on trial."""
         quarter = self.samples[np.arange(0, len(self.samples.area), 4)]
         return replace(self, samples=replace(quarter, area=4.0 * quarter.area))
 
     @cached_property
-    def shadow(self) -> float:
+    def largest_projection(self) -> float:
         """Largest area in mm² that the part covers on a plane, of those across its principal axes."""
         arm = self.samples.points - self.centre
         axes = np.linalg.eigh(arm.T @ arm)[1]
         pictures = [arm @ np.delete(axes, k, axis=1) for k in range(3)]
         return max(ConvexHull(points).volume for points in pictures  # a plane face is a line from aside
-                   if np.ptp(points, axis=0).min() > _FLAT * np.ptp(points))
+                   if np.ptp(points, axis=0).min() > _FLAT_SHADOW * np.ptp(points))
 
     @cached_property
     def _forms(self) -> Array:
@@ -215,7 +215,7 @@ class Target:
         return beyond, outwards
 
 
-def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
+def kept_with_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
     """What follows from the model alone is computed for the first scan and kept for the next ones."""
     @wraps(compute)
     def kept(target: Target) -> Result:
@@ -226,7 +226,7 @@ def once_for_target(compute: Callable[[Target], Result]) -> Callable[[Target], R
     return kept
 
 
-def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:
+def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLE_COUNT) -> Target:
     """Sample the faces of a part.
 
     Parameters
@@ -245,17 +245,17 @@ def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLES) -> Target:
         raise ValueError("the faces have no area")
     spacing = np.sqrt(total / count)
     pieces = [_sample_face(face, k, area, spacing) for k, (face, area) in enumerate(zip(faces, areas, strict=True))]
-    all_samples = Samples(*(np.concatenate([getattr(piece, name) for piece in pieces])
-                            for name in ("points", "normals", "tangents", "curvature", "area", "face")))
-    views = even_directions(_VIEWS)
+    all_samples = SurfaceSamples(*(np.concatenate([getattr(piece, name) for piece in pieces])
+                                   for name in ("points", "normals", "tangents", "curvature", "area", "face")))
+    views = even_directions(_VIEW_COUNT)
     generator = np.random.default_rng(0)
     share = all_samples.area / all_samples.area.sum()
-    rough = generator.choice(len(share), size=min(len(share), 3 * _COARSE), replace=False, p=share)
+    rough = generator.choice(len(share), size=min(len(share), 3 * _EVEN_COUNT), replace=False, p=share)
     seen = _visibility(all_samples[rough], all_samples.points, views, np.sqrt(total / len(rough)))
-    exposed_rough = (seen & (views @ all_samples.normals[rough].T > _FACE_ON)).any(axis=0)
+    exposed_rough = (seen & (views @ all_samples.normals[rough].T > _FACE_ON_COSINE)).any(axis=0)
     exposed = exposed_rough[cKDTree(all_samples.points[rough] + 1e-3 * all_samples.normals[rough]).query(
         all_samples.points + 1e-3 * all_samples.normals)[1]]
-    kept = np.flatnonzero(exposed_rough & exposed[rough])[:_COARSE]
+    kept = np.flatnonzero(exposed_rough & exposed[rough])[:_EVEN_COUNT]
     samples_seen = all_samples[exposed]
     rims = rims_of(faces, samples_seen.points, samples_seen.normals, spacing)
     return Target(samples_seen, all_samples[rough[kept]], views, seen[:, kept], rims)
@@ -304,16 +304,16 @@ class _AreaGrid:
         return np.stack([u0 + u * (u1 - u0), v0 + position * (v1 - v0)], axis=1)
 
 
-def _sample_face(face: FaceGeometry, index: int, area: _AreaGrid, spacing: float) -> Samples:
-    """Even samples, denser where the face turns by more than `_TURN` between two of them."""
+def _sample_face(face: FaceGeometry, index: int, area: _AreaGrid, spacing: float) -> SurfaceSamples:
+    """Even samples, denser where the face turns by more than `_LARGEST_TURN` between two of them."""
     probe = _evaluate(face, area.place(_r2_sequence(32)), index)
-    bent = float(np.quantile(np.linalg.norm(probe.curvature, axis=1), 0.75)) * spacing / _TURN
+    bent = float(np.quantile(np.linalg.norm(probe.curvature, axis=1), 0.75)) * spacing / _LARGEST_TURN
     count = int(np.ceil(area.whole / spacing**2 * np.clip(bent**2, 1.0, 9.0)))
     uv = area.place(_r2_sequence(max(count, 12)))
     uv = uv[inside_polylines(face.trims, uv)]
     samples = _evaluate(face, uv, index)
-    return Samples(samples.points, samples.normals, samples.tangents, samples.curvature,
-                   np.full(len(uv), area.inside / max(len(uv), 1)), samples.face)
+    return SurfaceSamples(samples.points, samples.normals, samples.tangents, samples.curvature,
+                          np.full(len(uv), area.inside / max(len(uv), 1)), samples.face)
 
 
 def _r2_sequence(count: int) -> Array:
@@ -322,7 +322,7 @@ def _r2_sequence(count: int) -> Array:
     return np.mod(0.5 + np.arange(1, count + 1)[:, None] * np.array([1.0 / g, 1.0 / g**2]), 1.0)
 
 
-def _evaluate(face: FaceGeometry, uv: Array, index: int) -> Samples:
+def _evaluate(face: FaceGeometry, uv: Array, index: int) -> SurfaceSamples:
     """Points, outward frame and second fundamental form at parameters (n, 2)."""
     surface = face.surface
     su, sv = surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv)
@@ -341,11 +341,11 @@ def _evaluate(face: FaceGeometry, uv: Array, index: int) -> Samples:
     h12 = (forms[:, 1] - a * b * h11) / (a * c)
     h22 = (forms[:, 2] - b * b * h11 - 2.0 * b * c * h12) / c**2
     points = surface(uv)
-    return Samples(points, normal, np.stack([first, second], axis=1), np.stack([h11, h12, h22], axis=1),
-                   np.zeros(len(uv)), np.full(len(uv), index))
+    return SurfaceSamples(points, normal, np.stack([first, second], axis=1), np.stack([h11, h12, h22], axis=1),
+                          np.zeros(len(uv)), np.full(len(uv), index))
 
 
-def _visibility(samples: Samples, hiding: Array, views: Array, spacing: float) -> NDArray[np.bool_]:
+def _visibility(samples: SurfaceSamples, hiding: Array, views: Array, spacing: float) -> NDArray[np.bool_]:
     """Which samples an orthographic camera in each direction sees, by a depth buffer; (len(views), n).
 
     Parameters
@@ -368,7 +368,7 @@ def _visibility(samples: Samples, hiding: Array, views: Array, spacing: float) -
         key = mine[:, 0] * width + mine[:, 1]
         height = samples.points @ view
         facing = samples.normals @ view
-        steepness = np.sqrt(1.0 - np.clip(facing, _GRAZING, 1.0) ** 2) / np.maximum(facing, _GRAZING)
+        steepness = np.sqrt(1.0 - np.clip(facing, _GRAZING_COSINE, 1.0) ** 2) / np.maximum(facing, _GRAZING_COSINE)
         slack = pixel * (0.2 + np.sqrt(2.0) * steepness)
-        visible[k] = (facing > _GRAZING) & (height > top[key] - slack)
+        visible[k] = (facing > _GRAZING_COSINE) & (height > top[key] - slack)
     return visible

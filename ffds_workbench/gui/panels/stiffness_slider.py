@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from .panel import named
-from .qt import QtCore, QtWidgets
-from .translating import tr
+from ..qt import QtCore, QtWidgets
+from ..translating import tr
+from ..widgets import named
 
 _TICKS = 10
 """Steps per decade."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..errors import InputError
-from ..objects.job import Settings
+from ...errors import InputError
+from ...objects.job import Settings
+from ..preferences import preferences
+from ..qt import QtCore, QtWidgets
+from ..translating import tr
+from ..widgets import ProgressBar, choice, folded, length, named, spin, wrapped
 from .legend import Legend
-from .panel import ProgressBar, choice, folded, length, named, spin, wrapped
-from .preferences import preferences
-from .qt import QtCore, QtWidgets
 from .stiffness_slider import StiffnessSlider
-from .translating import tr
 
 _WIDEST = 40
 _LARGEST_GATE = 1000.0

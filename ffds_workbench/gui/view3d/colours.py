@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..report.picture import COLOURS
+from ...report.picture import COLOURS
 
 Array = NDArray[np.float64]
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..objects.job import Job
-from . import running
-from .preview import Patch, Preview
-from .qt import QtCore
-from .translating import tr
+from ...objects.job import Job
+from .. import running
+from ..qt import QtCore
+from ..translating import tr
+from .patches import Patch, Preview
 
 _REST_MS = 350
 """The preview becomes exact when nothing was touched for so long."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD
 
-from .qt import QtCore
+from ..qt import QtCore
 
 
 class WithDocument:

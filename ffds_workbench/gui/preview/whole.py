@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..api.tuning import Tuning
-from ..brep.joint_part import joint_part
-from ..brep.workpiece import Workpiece
-from ..objects.job import Settings
-from ..registration.face import covered_share
-from ..registration.joint import JointSettings, LiveJoint, register_joint
-from ..registration.splines import SplineSurface
-from ..report.stopwatch import Progress
-from ..scan.cloud import PointCloud
+from ...api.tuning import Tuning
+from ...brep.joint_part import joint_part
+from ...brep.workpiece import Workpiece
+from ...objects.job import Settings
+from ...registration.face import covered_share
+from ...registration.joint import JointSettings, LiveJoint, register_joint
+from ...registration.splines import SplineSurface
+from ...report.stopwatch import Progress
+from ...scan.cloud import PointCloud
 from .face_on_scan import Array, Deviations, FaceOnScan, farthest_of
 
 _LOOKED_AT = 8000

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..registration.face import RobustSettings
-from ..registration.face_geometry import FaceGeometry
-from ..registration.footpoints import SurfaceCoordinates, surface_coordinates
-from ..registration.splines import SplineSurface
-from ..registration.uv_raster import Raster, make_raster
+from ...registration.face import RobustSettings
+from ...registration.face_geometry import FaceGeometry
+from ...registration.footpoints import SurfaceCoordinates, surface_coordinates
+from ...registration.splines import SplineSurface
+from ...registration.uv_raster import Raster, make_raster
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import Part
 
-from .colours import packed_colours
-from .overlay import ColouredMesh, Overlay, lattice_nodes, lines_node, shaded_node
-from .preview import Patch
+from ..view3d.colours import packed_colours
+from ..view3d.overlay import ColouredMesh, Overlay, lattice_nodes, lines_node, shaded_node
+from .patches import Patch
 
 PLAIN, FROZEN = (0.78, 0.8, 0.82), (0.38, 0.55, 0.75)
 _DEFLECTION = 1 / 800

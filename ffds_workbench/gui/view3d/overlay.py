@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pivy import coin
 
-from ..objects.lattices import Lattice
+from ...objects.lattices import Lattice
 
 Array = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .colours import packed_colours
-from .qt import QtCore, QtGui, QtWidgets
+from ..qt import QtCore, QtGui, QtWidgets
+from ..view3d.colours import packed_colours
 
 Array = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pivy import coin
 
-from ..objects.seams import FIGURES, stations_of, wishes_of
+from ...objects.seams import FIGURES, stations_of, wishes_of
+from ..translating import tr
 from .colours import NO_DATA, packed_colours
 from .overlay import mesh_node
-from .translating import tr
 
 Array = NDArray[np.float64]
 Colours = NDArray[np.uint32]

@@ -9,23 +9,23 @@ import FreeCADGui as Gui
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import api
-from ..brep import workpiece
-from ..brep.model_files import model_file
-from ..brep.simulated_scan import edge_points
-from ..objects.as_built import is_as_built
-from ..objects.scans import scan_points
-from ..registration.uv_raster import make_raster
-from . import running
+from ... import api
+from ...brep import workpiece
+from ...brep.model_files import model_file
+from ...brep.simulated_scan import edge_points
+from ...objects.as_built import is_as_built
+from ...objects.scans import scan_points
+from ...registration.uv_raster import make_raster
+from .. import running
+from ..preferences import preferences
+from ..preview.face_on_scan import corner_values, corners, surface_grid
+from ..qt import QtWidgets, number_of
+from ..translating import tr
+from ..view3d.colours import good_limit, packed_colours
+from ..view3d.overlay import Overlay, foremost, lines_node, mesh_node, points_node
+from ..widgets import choice, length, named, wrapped
 from .closing import WithDocument
-from .colours import good_limit, packed_colours
-from .face_on_scan import corner_values, corners, surface_grid
 from .legend import Legend
-from .overlay import Overlay, foremost, lines_node, mesh_node, points_node
-from .panel import choice, length, named, wrapped
-from .preferences import preferences
-from .qt import QtWidgets, number_of
-from .translating import tr
 
 Array = NDArray[np.float64]
 

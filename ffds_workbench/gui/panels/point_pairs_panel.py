@@ -8,14 +8,14 @@ import FreeCADGui as Gui
 import numpy as np
 from pivy import coin
 
-from ..errors import FfdsError, InputError
-from ..objects.manual_alignment import prepare
-from . import running
+from ...errors import FfdsError, InputError
+from ...objects.manual_alignment import prepare
+from .. import running
+from ..qt import QtCore, QtWidgets, number_of
+from ..translating import said, tr
+from ..view3d.overlay import Overlay, points_node
+from ..widgets import ProgressBar, named, wrapped
 from .closing import WithDocument
-from .overlay import Overlay, points_node
-from .panel import ProgressBar, named, wrapped
-from .qt import QtCore, QtWidgets, number_of
-from .translating import said, tr
 
 _PAIRS = 3
 _COLOURS = (0xE6194BFF, 0x2F7FC8FF, 0xF0A500FF)

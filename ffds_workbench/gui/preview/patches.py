@@ -12,19 +12,19 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from ..api.tuning import Tuning
-from ..brep import workpiece
-from ..errors import RefusedError
-from ..objects.job import Settings
-from ..objects.lattices import Lattice, draw_lattice
-from ..registration.face import (FaceRegistration, RobustSettings, observed_faces, register_ffd, register_ffds,
-                                 register_robust)
-from ..registration.splines import DEGREE, SplineSurface
-from ..report.stopwatch import Progress
-from ..scan.cloud import PointCloud
+from ...api.tuning import Tuning
+from ...brep import workpiece
+from ...errors import RefusedError
+from ...objects.job import Settings
+from ...objects.lattices import Lattice, draw_lattice
+from ...registration.face import (FaceRegistration, RobustSettings, observed_faces, register_ffd, register_ffds,
+                                  register_robust)
+from ...registration.splines import DEGREE, SplineSurface
+from ...report.stopwatch import Progress
+from ...scan.cloud import PointCloud
+from ..translating import tr
 from .face_on_scan import Array, Deviations, FaceOnScan
-from .translating import tr
-from .whole_preview import WholePreview
+from .whole import WholePreview
 
 COARSE = 3000
 """Scan points per face that are looked at while a control is being moved."""

@@ -7,22 +7,22 @@ from typing import Any
 import FreeCADGui as Gui
 import numpy as np
 
-from ..errors import FfdsError, InputError
-from ..objects.as_built import settings_of
-from ..objects.job import Job, Settings, make_job
-from ..objects.sources import Source, standing_for
-from . import running
+from ...errors import FfdsError, InputError
+from ...objects.as_built import settings_of
+from ...objects.job import Job, Settings, make_job
+from ...objects.sources import Source, standing_for
+from .. import running
+from ..preferences import preferences
+from ..preview.drawing import PreviewDrawing
+from ..preview.patches import Patch, figures
+from ..preview.runner import PreviewRunner
+from ..qt import QtCore, QtWidgets, number_of
+from ..selection import Chosen, chosen, scans_of
+from ..translating import said, tr
+from ..view3d.colours import good_limit
+from ..view3d.overlay import Overlay
 from .closing import WithDocument
-from .colours import good_limit
 from .deformation_form import DeformationForm
-from .overlay import Overlay
-from .preferences import preferences
-from .preview import Patch, figures
-from .preview_drawing import PreviewDrawing
-from .preview_runner import PreviewRunner
-from .qt import QtCore, QtWidgets, number_of
-from .selection import Chosen, chosen, scans_of
-from .translating import said, tr
 
 
 def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
