@@ -222,9 +222,9 @@ def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
 
 def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds benchmark``: run one and say where its tables are."""
-    from .. import _freecad
+    from .. import find_freecad
 
-    _freecad.activate()
+    find_freecad.activate()
     folder = weld.make_folder(options.out)
     text = importlib.import_module(f"ffds_workbench.benchmark.{options.name}").run(folder, progress)
     return f"{text or ''}\n\nWritten: {folder}".strip()
