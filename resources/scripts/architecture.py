@@ -4,7 +4,7 @@
 
     resources/scripts/architecture.py [OUT.png]
 
-A room is a package; an arrow points from the room that imports to the one that is imported, and its width tells how many
+A room is a package; an arrow points from the room that imports to the one that is imported; its width tells how many
 files do. Where a room is also reached through another one, only the longer way is drawn.
 """
 from __future__ import annotations

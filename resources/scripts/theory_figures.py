@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draws the figures of resources/docs/theory.md into resources/docs/theory/: the published algorithm, what closest points
-do to it, and the bands of the example part.
+"""Draws the figures of resources/docs/theory.md into resources/docs/theory/: the published algorithm, what closest
+points do to it, and the bands of the example part.
 
     resources/scripts/theory_figures.py [FOLDER]
 """
