@@ -28,5 +28,5 @@ def test_both_skins_of_a_thin_sheet_are_told_apart(thickness, noise, density):
     assert (scan[chosen] == problem.sample).all()
     sides, told = candidate_outward_normals(problem, 3.0)
     right = np.sign(sides[0][:, 2]) == np.where(upper[chosen], 1.0, -1.0)
-    # Around the rims normals turn: half a thickness wide is a neighbourhood, and 0.6 are to the next point with a normal.
+    # Around the rims normals turn: a neighbourhood is half a thickness wide, and 0.6 are to the next point with one.
     assert len(sides) == 1 and not told and right.mean() > 1 - 1.1 * thickness * 2 * size.sum() / size.prod()
