@@ -18,7 +18,7 @@ from ..registration.arrays import Array
 from ..registration.splines import SplineSurface
 from .edges import PlacedCurve, Trace, edge_curve, largest_gap
 from .face_displacement import FaceDisplacement
-from .folding import folded
+from .folding import folded, folds_over
 from .occt_text import (BrepText, Curve3d, EdgeCurves, Instances, Locations, NewEdge, NewFace, NewVertex, Pcurve,
                         PcurveReader, Rewriter, Spline, UsedEdge, VertexPoint, dump, parse, product, read_curve, walk)
 from .pcurve_start import late
@@ -97,7 +97,7 @@ def _refuse_folds(workpiece: Workpiece, faces: Mapping[int, NewFace]) -> None:
     for index, new in faces.items():
         face = workpiece.faces[index]
         if folded(face.on_grid, new.surface, face.trims):
-            raise RefusedError(f"{face.name} would fold over: the displacement is too large for its size.")
+            raise folds_over(face.name)
 
 
 class _Geometry:
