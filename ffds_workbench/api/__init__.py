@@ -20,9 +20,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from .. import _freecad
+from .. import find_freecad
 
-_freecad.activate()
+find_freecad.activate()
 
 _HOMES = {
     "..brep.model_files": ("Model",),

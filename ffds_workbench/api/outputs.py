@@ -10,8 +10,8 @@ import Part
 
 from ..brep.model_files import Model, model_file
 from ..output import replacing
-from ..report import picture as drawing
 from ..report import record
+from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
 from ..scan.cloud import PointCloud
 from .destinations import destinations

@@ -24,7 +24,7 @@ from scipy.spatial.transform import Rotation
 
 from .. import ROOT
 from ..brep import workpiece
-from ..brep.simulated_scan import target_of as sensor_target_of
+from ..brep.simulated_scan import scene_of as sensor_target_of
 from ..registration.face_geometry import FaceGeometry
 from ..registration.motions import angle, apply, best_fit, motion
 from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of

@@ -13,8 +13,8 @@ from .face_displacement import FaceDisplacement
 from .surface_fit import GridFunction
 from .workpiece import Workpiece
 
-_FEWEST, _MOST = 17, 49
-_VANISHING = 1e-3
+_LEAST_SAMPLES, _LARGEST_SAMPLES = 17, 49
+_VANISHING_NORMAL = 1e-3
 """A normal S_u × S_v shrunk by this factor counts as vanished."""
 
 
@@ -32,8 +32,8 @@ def refuse_folds(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacem
     """Refuse displacements that fold a face over, before any surface is made of them (RefusedError)."""
     for index, displacement in sorted(displacements.items()):
         face = workpiece.faces[index]
-        u, v = (np.linspace(start, end, _MOST) for start, end in ((face.box.u0, face.box.u1),
-                                                                  (face.box.v0, face.box.v1)))
+        ends = (face.box.u0, face.box.u1), (face.box.v0, face.box.v1)
+        u, v = (np.linspace(*end, _LARGEST_SAMPLES) for end in ends)
         points = face.on_grid(u, v)
         uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
         moved = points + displacement.evaluate(uv, points.reshape(-1, 3)).reshape(points.shape)
@@ -53,13 +53,13 @@ def _turned(u: Array, v: Array, nominal: Array, deformed: Array, trims: Sequence
     area = np.linalg.norm(before, axis=1)
     regular = area > 1e-6 * area.max(initial=0.0)
     agreement = np.einsum("ij,ij->i", before, after)[regular]
-    shrunk = np.linalg.norm(after, axis=1)[regular] < _VANISHING * area[regular]
+    shrunk = np.linalg.norm(after, axis=1)[regular] < _VANISHING_NORMAL * area[regular]
     return bool(np.any(agreement <= 0.0) or np.any(shrunk))
 
 
 def _samples(start: float, end: float, knots: Array) -> Array:
     spans = len(np.unique(knots[DEGREE:-DEGREE])) - 1
-    return np.linspace(start, end, int(np.clip(2 * spans + 1, _FEWEST, _MOST)))
+    return np.linspace(start, end, int(np.clip(2 * spans + 1, _LEAST_SAMPLES, _LARGEST_SAMPLES)))
 
 
 def _cell_normals(points: Array) -> Array:

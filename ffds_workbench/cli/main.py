@@ -6,7 +6,6 @@ Exit codes: 0 written, 2 bad usage or input, 3 refused or failed honestly, 130 i
 from __future__ import annotations
 
 import argparse
-import importlib
 import os
 import signal
 import sys
@@ -16,9 +15,8 @@ from pathlib import Path
 from typing import NoReturn, TextIO
 
 from .. import RESOURCES, __version__
-from ..benchmark import NAMES as BENCHMARKS
 from ..errors import FfdsError, InputError, RefusedError
-from . import align, seams, sensor, simulate, weld
+from . import align, benchmark, seams, sensor, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .terminal import ProgressLine, quiet_libraries
 
@@ -94,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     seams.add(commands)
     weld.add(commands)
     _add_demo(commands)
-    _add_benchmark(commands)
+    benchmark.add(commands)
     return parser
 
 
@@ -120,13 +118,6 @@ def _add_demo(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("demo", help="run the main job on the bundled example")
     command.add_argument("--out", type=Path, default=Path("out/demo"), metavar="DIR", help="default: out/demo")
     command.set_defaults(run=demo)
-
-
-def _add_benchmark(commands: argparse._SubParsersAction) -> None:
-    command = commands.add_parser("benchmark", help="measure accuracy, speed or topology anew")
-    command.add_argument("name", choices=BENCHMARKS, metavar="|".join(BENCHMARKS))
-    command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for tables and pictures")
-    command.set_defaults(run=benchmark)
 
 
 def register(options: argparse.Namespace, progress: ProgressLine) -> str:
@@ -169,16 +160,6 @@ def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
     wanted = weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
     text = weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
     return f"{text}\n\nWritten: {folder / weld.PAGE} and what it shows"
-
-
-def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
-    """``ffds benchmark``: run one and say where its tables are."""
-    from .. import _freecad
-
-    _freecad.activate()
-    folder = weld.make_folder(options.out)
-    text = importlib.import_module(f"ffds_workbench.benchmark.{options.name}").run(folder, progress)
-    return f"{text or ''}\n\nWritten: {folder}".strip()
 
 
 def _written(*paths: Path | None) -> str:

@@ -10,35 +10,35 @@ from scipy.linalg import lstsq
 from ..arrays import Array
 from ..splines import greville
 from .problem import Problem
-from .state import State, keep
+from .state import State, fresh_cache
 from .surfaces import FaceLattice, cubic
 
-_EXCESS = 1.5
+_EXCESS_VARIANCE = 1.5
 """Ratio of the variance of patch means to that of noise alone, from which the spans of a face are divided."""
-_FEWEST_PATCHES = 8
-_PATCHES = 2
+_LEAST_PATCHES = 8
+_PATCHES_PER_SPAN = 2
 """Patches along a span: noise averages out over one, a shape that the lattice cannot follow does not."""
-_FULL = 0.3
-_MOST_CONTROLS = 6000
-_SENSOR = 0.5
+_FULL_PATCH = 0.3
+_LARGEST_LATTICE = 6000
+_SENSOR_NOISE_SHARE = 0.5
 
 
-def finer_faces(problem: Problem, state: State) -> dict[int, int]:
+def faces_to_refine(problem: Problem, state: State) -> dict[int, int]:
     """Faces whose spans are to be halved, {face: 2}; empty where the lattice follows the scan down to its noise."""
-    if problem.lattices.count > _MOST_CONTROLS:
+    if problem.lattices.count > _LARGEST_LATTICE:
         return {}
     ratio, face = patch_ratios(problem, state)
-    judged = [index for index in range(len(problem.part.faces)) if (face == index).sum() >= _FEWEST_PATCHES]
+    judged = [index for index in range(len(problem.part.faces)) if (face == index).sum() >= _LEAST_PATCHES]
     chosen = [index for index in judged
-              if ratio[face == index].mean() > _EXCESS + 2 * np.sqrt(2 / (face == index).sum())]
+              if ratio[face == index].mean() > _EXCESS_VARIANCE + 2 * np.sqrt(2 / (face == index).sum())]
     # Where all faces ask, it is the sensor's noise that is smooth, not the shape that is rough.
-    return {} if len(chosen) > _SENSOR * len(judged) else dict.fromkeys(chosen, 2)
+    return {} if len(chosen) > _SENSOR_NOISE_SHARE * len(judged) else dict.fromkeys(chosen, 2)
 
 
 def patch_ratios(problem: Problem, state: State) -> tuple[Array, Array]:
     """Squared means of what is left in patches of cells over their variance from noise, and the faces: (n,) each."""
     per_span = int(np.sqrt(problem.cells.inside.shape[1]))
-    size = max(1, per_span // _PATCHES)
+    size = max(1, per_span // _PATCHES_PER_SPAN)
     count = per_span // size
     spans = len(problem.lattices.controls)
 
@@ -49,7 +49,7 @@ def patch_ratios(problem: Problem, state: State) -> tuple[Array, Array]:
     pull, weight = summed(state.values.height * state.values.weight), summed(state.values.weight)
     if not weight.any():
         return np.zeros(0), np.zeros(0)
-    full = weight > _FULL * np.median(weight[weight > 0])
+    full = weight > _FULL_PATCH * np.median(weight[weight > 0])
     face = np.broadcast_to(problem.lattices.face_of_span[:, None, None], full.shape)
     return pull[full] ** 2 / weight[full], face[full]
 
@@ -67,8 +67,8 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
             values = np.moveaxis(np.tensordot(lstsq(rows, np.eye(len(sites)))[0], values, axes=(1, axis)), 0, axis)
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
-    kept = replace(keep(fine, control_points), near_edges=state.kept.near_edges)
-    return replace(state, control_points=control_points, kept=kept)
+    cache = replace(fresh_cache(fine, control_points), near_edges=state.cache.near_edges)
+    return replace(state, control_points=control_points, cache=cache)
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

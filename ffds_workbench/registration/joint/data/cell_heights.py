@@ -7,16 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array, Index
+from ...robust_weights import TUKEY_SIGMAS, robust_sigma, tukey
 from .correspondence import Correspondence
 
-_TUKEY = 4.685
 _MEDIAN_EFFICIENCY = 0.64
-_MAD = 1.4826
-_FEWEST_FOR_NOISE = 200
+_LEAST_POINTS_FOR_NOISE = 200
 
 
 @dataclass(frozen=True)
-class CellValues:
+class CellHeights:
     """Heights of the scan above the current surface, cell by cell.
 
     Attributes
@@ -33,12 +32,12 @@ class CellValues:
     noise: Array
 
 
-def nothing(cells: int, noise: Array) -> CellValues:
+def no_heights(cells: int, noise: Array) -> CellHeights:
     """The values before anything was matched."""
-    return CellValues(np.zeros(cells), np.zeros(cells), np.zeros(cells), noise)
+    return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), noise)
 
 
-def medians(found: Correspondence, cells: int, noise: Array, face_of_cell: Index) -> CellValues:
+def median_heights(found: Correspondence, cells: int, noise: Array, face_of_cell: Index) -> CellHeights:
     """Median height of every cell, weighted 0.64 n/σ² (the median's efficiency on Gaussian noise)."""
     order = np.lexsort((found.height, found.cell))
     cell, height = found.cell[order], found.height[order]
@@ -49,22 +48,21 @@ def medians(found: Correspondence, cells: int, noise: Array, face_of_cell: Index
     result[at] = 0.5 * (height[first + (count - 1) // 2] + height[first + count // 2])
     weight[at] = np.where(count < 3, 1.0, _MEDIAN_EFFICIENCY) * count / noise[face_of_cell[at]] ** 2
     counts[at] = count
-    return CellValues(result, weight, counts, noise)
+    return CellHeights(result, weight, counts, noise)
 
 
-def tukey_means(found: Correspondence, cells: int, start: Array, face_of_cell: Index) -> CellValues:
+def tukey_mean_heights(found: Correspondence, cells: int, start: Array, face_of_cell: Index) -> CellHeights:
     """Mean height of every cell with Tukey's biweight (c = 4.685 σ) about the current surface, weighted n/σ².
 
     ``start`` (faces,) is the noise to fall back on where a face has too few points to measure its own.
     """
     noise = face_noise(found, start, face_of_cell)
-    scaled = found.height / (_TUKEY * noise[face_of_cell[found.cell]])
-    weight = np.where(np.abs(scaled) < 1, (1 - scaled**2) ** 2, 0.0)
+    weight = tukey(found.height, TUKEY_SIGMAS * noise[face_of_cell[found.cell]])
     total = np.bincount(found.cell, weights=weight, minlength=cells)
     height = np.bincount(found.cell, weights=weight * found.height, minlength=cells) / np.maximum(total, 1e-9)
     height[total == 0] = 0.0
     count = np.bincount(found.cell[weight > 0], minlength=cells).astype(float)
-    return CellValues(height, total / noise[face_of_cell] ** 2, count, noise)
+    return CellHeights(height, total / noise[face_of_cell] ** 2, count, noise)
 
 
 def face_noise(found: Correspondence, start: Array, face_of_cell: Index) -> Array:
@@ -73,7 +71,7 @@ def face_noise(found: Correspondence, start: Array, face_of_cell: Index) -> Arra
     order = np.argsort(face, kind="stable")
     bounds = np.searchsorted(face[order], np.arange(len(start) + 1))
     noise = start.copy()
-    for k in np.flatnonzero(np.diff(bounds) >= _FEWEST_FOR_NOISE):
+    for k in np.flatnonzero(np.diff(bounds) >= _LEAST_POINTS_FOR_NOISE):
         height = found.height[order[bounds[k] : bounds[k + 1]]]
-        noise[k] = _MAD * np.median(np.abs(height - np.median(height)))
+        noise[k] = robust_sigma(height - np.median(height))
     return np.maximum(noise, 1e-6)

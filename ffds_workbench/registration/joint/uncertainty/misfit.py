@@ -9,27 +9,27 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..data import CellValues
+from ..data import CellHeights
 from ..problem import Problem
 from ..surfaces import by_face
 
-_AROUND = 15.0
+_POOLING_RADIUS = 15.0
 """Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
-_PATCHES = 2
+_PATCHES_PER_SPAN = 2
 
 
-def misfit(problem: Problem, values: CellValues) -> Array:
+def misfit(problem: Problem, values: CellHeights) -> Array:
     """Variance of the misfit around every span, (spans,) in mm²: of its mean, and of what varies from patch to patch.
 
     Both are what is left when the expectation from noise is taken off (the moment estimator of DerSimonian and Laird,
     Controlled Clinical Trials 7, 1986).
     """
     height, weight = values.height.reshape(problem.distance.shape), values.weight.reshape(problem.distance.shape)
-    pull, total = _patches(height * weight), _patches(weight)
+    pull, total = _patch_sums(height * weight), _patch_sums(weight)
     seen = total > 0
     excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=1)
-    place = _places(problem)
-    near = cKDTree(place).query_ball_point(place, _AROUND, workers=-1)
+    place = _span_middles(problem)
+    near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS, workers=-1)
     row, column = np.repeat(np.arange(len(place)), [len(item) for item in near]), np.concatenate(near).astype(np.intp)
     around = [np.bincount(row, item[column], len(place)) for item in (total.sum(axis=1), pull.sum(axis=1), excess)]
     information = np.maximum(around[0], 1e-12)
@@ -40,18 +40,18 @@ def misfit(problem: Problem, values: CellValues) -> Array:
 
 def nearest_spans(problem: Problem, face: Index, position: Array) -> Index:
     """The span of faces (n,) whose middle is nearest to nominal places (n, 3): (n,)."""
-    return cKDTree(_places(problem)).query(by_face(position, face), workers=-1)[1]
+    return cKDTree(_span_middles(problem)).query(by_face(position, face), workers=-1)[1]
 
 
-def _places(problem: Problem) -> Array:
+def _span_middles(problem: Problem) -> Array:
     """Middles of the spans `by_face`: (spans, 4)."""
     return by_face(problem.cells.nominal.position.mean(axis=1), problem.lattices.face_of_span)
 
 
-def _patches(cells: Array) -> Array:
+def _patch_sums(cells: Array) -> Array:
     """Sums over patches of the cells (spans, k): (spans, patches)."""
     per_span = int(np.sqrt(cells.shape[1]))
-    size = max(1, per_span // _PATCHES)
+    size = max(1, per_span // _PATCHES_PER_SPAN)
     count = -(-per_span // size)
     grid = np.zeros((len(cells), count * size, count * size))
     grid[:, :per_span, :per_span] = cells.reshape(-1, per_span, per_span)

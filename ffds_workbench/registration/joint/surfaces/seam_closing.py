@@ -8,24 +8,24 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Array
-from ..part import JointPart, SharedEdge
 from .lattices import FaceLattice, Lattices
+from .part import JointPart, SharedEdge
 
 _ON_SIDE = 1e-6
 
 
-def exact_ends(part: JointPart, lattices: Lattices, control_points: Array) -> Array:
+def close_seams(part: JointPart, lattices: Lattices, control_points: Array) -> Array:
     """Control points (controls, 3) with poles and seams closed; only the outermost rows change."""
     result = control_points.copy()
     for edge in part.edges:
         if edge.degenerate:
             for face, uv in zip(edge.faces, edge.uv, strict=True):
-                _close(result, lattices.faces[face], [_side(lattices.faces[face], uv)], pole=True)
+                _give_common_displacement(result, lattices.faces[face], [_side(lattices.faces[face], uv)], pole=True)
         elif edge.is_seam:
             lattice = lattices.faces[edge.faces[0]]
             sides = [_side(lattice, uv) for uv in edge.uv]
             if _opposite(lattice, edge, sides):
-                _close(result, lattice, sides, pole=False)
+                _give_common_displacement(result, lattice, sides, pole=False)
     return result
 
 
@@ -45,7 +45,8 @@ def _opposite(lattice: FaceLattice, edge: SharedEdge, sides: list[tuple[int, int
             and not lattice.periodic[first[0]])
 
 
-def _close(control_points: Array, lattice: FaceLattice, sides: list[tuple[int, int] | None], pole: bool) -> None:
+def _give_common_displacement(control_points: Array, lattice: FaceLattice, sides: list[tuple[int, int] | None],
+                              pole: bool) -> None:
     """Give all sides the mean of their displacements (at a pole one for the whole side), in place.
 
     The value at the end of a uniform cubic is (c₀ + 4 c₁ + c₂)/6; the outermost row c₀ takes what is missing.
