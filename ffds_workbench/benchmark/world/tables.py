@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ..accuracy_lines import Line
+from ..accuracy_lines import AccuracyLine
 from ..page import Section, Table
 from .judge import FLAGS
 
@@ -33,7 +33,7 @@ def outcome(row: Row) -> str:
     return "crash"
 
 
-def lines(rows: Sequence[Row]) -> list[Line]:
+def lines(rows: Sequence[Row]) -> list[AccuracyLine]:
     """What holds and what does not, of all lines for which there are cases."""
     tried = [row for row in rows if row["outcome"] != "no case"]
     written = [row for row in tried if row["outcome"] == "written"]
@@ -51,7 +51,8 @@ def lines(rows: Sequence[Row]) -> list[Line]:
     found = [_at_least(what, sum(map(holds, chosen)) / len(chosen), asked) for what, chosen, holds, asked in shares
              if chosen]
     bad = sum(row["outcome"] in ("crash", "timeout", "silent", "not judged", "no case") for row in rows)
-    found.append(Line("Crashes, kills, steps without an end, exits without a line", float(bad), "at most 0", bad == 0))
+    found.append(AccuracyLine("Crashes, kills, steps without an end, exits without a line", float(bad), "at most 0",
+                              bad == 0))
     for key, where in (("bands", "faces"), ("edge_bands", "edges")):
         for flag in FLAGS:
             places, held = (sum(row[key][flag][what] for row in written if key in row) for what in ("places", "held"))
@@ -114,5 +115,5 @@ def _unmeshed(row: Row) -> list[str]:
     return faces + [f"{after['open']} open sides of the mesh"] * (before["open"] == 0 < after["open"])
 
 
-def _at_least(what: str, found: float, asked: float) -> Line:
-    return Line(what, found, f"at least {asked:g}", found >= asked)
+def _at_least(what: str, found: float, asked: float) -> AccuracyLine:
+    return AccuracyLine(what, found, f"at least {asked:g}", found >= asked)
