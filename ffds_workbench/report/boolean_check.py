@@ -19,7 +19,7 @@ from pathlib import Path
 
 import Part
 
-from .. import _freecad
+from .. import find_freecad
 from ..brep import topology
 
 _CHECKER = """
@@ -73,7 +73,7 @@ class BooleanChecks:
         path = Path(self._folder.name) / f"{len(self._processes)}.brep"
         bodies = topology.bodies(shape)
         Part.makeCompound(bodies).exportBrep(str(path))
-        command = [_freecad.interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path),
+        command = [find_freecad.interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path),
                    str(math.ceil(self._limit) + 1)]
         self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
         self._checks.append(_Check(self._processes[-1], len(bodies), time.monotonic() + _PATIENCE * self._limit))

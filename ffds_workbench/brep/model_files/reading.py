@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ... import ROOT, _freecad
+from ... import ROOT, find_freecad
 from ...errors import InputError, RefusedError
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def _begun(path: Path, label: str | None) -> Reading:
     size = path.stat().st_size * (_DOCUMENT_GAIN if path.suffix.lower() == ".fcstd" else 1)
     seconds, memory = _SECONDS + _SECONDS_PER_MB * size / 1e6, _BYTES + _BYTES_PER_BYTE * size
     folder = tempfile.TemporaryDirectory(prefix="ffds-")
-    command = [_freecad.interpreter(), "-c", _CHILD, json.dumps([str(ROOT), *sys.path]), str(path.absolute()),
+    command = [find_freecad.interpreter(), "-c", _CHILD, json.dumps([str(ROOT), *sys.path]), str(path.absolute()),
                str(path), json.dumps(label), folder.name, str(seconds), str(memory)]
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                cwd=folder.name, env={**os.environ, "TMPDIR": folder.name})
@@ -135,7 +135,7 @@ def _end(process: subprocess.Popen[bytes], folder: tempfile.TemporaryDirectory[s
 
 def run(path: str, name: str, label: str, folder: str, seconds: str, memory: str) -> None:
     """Read a file in this process, which is there for nothing else; ``name`` is what it is called in messages."""
-    _freecad.activate()
+    find_freecad.activate()
     _limit(float(seconds), int(memory))
     from . import reader
 
