@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark.simulated import fuzz_seeds, mutations
+from ffds_workbench.benchmark.fuzz import mutations, seeds
 from ffds_workbench.errors import FfdsError, InputError
 from ffds_workbench.seams.taught.carry import carry
 
 hypothesis = pytest.importorskip("hypothesis")
 from hypothesis import strategies
 
-SEEDS = fuzz_seeds.paths()
+SEEDS = seeds.paths()
 ALL = [content for contents in SEEDS.values() for content in contents]
 
 
@@ -34,7 +34,7 @@ def outcome(path: Path, content: bytes, plate) -> str:
 
 @pytest.mark.parametrize("suffix", SEEDS)
 def test_damage_of_every_kind(tmp_path, suffix):
-    plate = fuzz_seeds.plate()
+    plate = seeds.plate()
 
     @hypothesis.settings(derandomize=True, deadline=None, database=None, max_examples=80)
     @hypothesis.given(strategies.integers(0, len(SEEDS[suffix]) - 1), strategies.integers(0, 2**32 - 1))
@@ -49,7 +49,7 @@ def test_damage_of_every_kind(tmp_path, suffix):
 
 @pytest.mark.parametrize("suffix", SEEDS)
 def test_any_text(tmp_path, suffix):
-    plate = fuzz_seeds.plate()
+    plate = seeds.plate()
 
     @hypothesis.settings(derandomize=True, deadline=None, database=None, max_examples=40)
     @hypothesis.given(strategies.binary(max_size=200) | strategies.text(max_size=100).map(str.encode))
@@ -67,12 +67,12 @@ def test_any_text(tmp_path, suffix):
 def test_numbers_that_make_no_sense(tmp_path, name, text, says):
     (tmp_path / name).write_text(text)
     with pytest.raises(InputError, match=says) as caught:
-        carry(fuzz_seeds.plate(), fuzz_seeds.plate(), tmp_path / name, tmp_path / f"new{name[1:]}")
+        carry(seeds.plate(), seeds.plate(), tmp_path / name, tmp_path / f"new{name[1:]}")
     assert "\n" not in str(caught.value)
 
 
 def test_rows_that_end_early_are_carried(tmp_path):
     (tmp_path / "p.csv").write_text("x,y,z,note,gap\n20,50,0,a,0.1\n30,50,0\n")
-    carry(fuzz_seeds.plate(), fuzz_seeds.plate(), tmp_path / "p.csv", tmp_path / "q.csv")
+    carry(seeds.plate(), seeds.plate(), tmp_path / "p.csv", tmp_path / "q.csv")
     assert (tmp_path / "q.csv").read_text().splitlines()[1:] == ["20.000000,50.000000,0.000000,a,",
                                                                  "30.000000,50.000000,0.000000"]

@@ -159,6 +159,15 @@ def paths() -> Mapping[str, list[bytes]]:
                      "\n".join(f"{x}\t{y}\t{z}" for x, y, z in places).encode()]}
 
 
+def measured() -> Array:
+    """A scan of the upper face of `plate` with a bump of 1 mm, and its normals, (n, 6)."""
+    random = np.random.default_rng(2)
+    x, y = random.uniform(1.0, 99.0, (2, 4000))
+    height = np.exp(-((x - 30.0) ** 2 + (y - 30.0) ** 2) / 800.0)
+    up = np.tile([0.0, 0.0, 1.0], (len(x), 1))
+    return np.hstack([np.stack([x, y, height + random.normal(0.0, 0.05, len(x))], axis=1), up])
+
+
 def plate() -> Part.Shape:
     """A part that the scans and the paths lie on: 100 × 100 × 8 mm, its upper face at z = 0."""
     import FreeCAD
