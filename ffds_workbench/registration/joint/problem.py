@@ -18,7 +18,7 @@ from .part import JointPart
 from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
                      make_stiffness)
 from .settings import JointSettings, PriorTrust
-from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals
+from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals, span_counts
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
@@ -129,11 +129,13 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
     sample = scan[pick]
     statistics = scan_statistics(scan)
-    span = max(settings.span, np.sqrt(_POINTS_PER_SPAN / statistics.density))
-    lattices = build_lattices(part.faces, span, settings.turning, finer)
-    per_span = int(np.clip(span / np.sqrt(_POINTS_PER_CELL / statistics.density), *_CELLS_PER_SPAN))
-    cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
+    counts = span_counts(part.faces, part.solids, settings.spans, settings.turning,
+                         np.sqrt(_POINTS_PER_SPAN / statistics.density))
+    lattices = build_lattices(part.faces, [(finer.get(index, 1) * u, finer.get(index, 1) * v)
+                                           for index, (u, v) in enumerate(counts)])
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
+    per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
+    cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / statistics.noise**2)
@@ -149,6 +151,12 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                    edge_sides(couplings.edges),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
                    None if scan_normals is None else scan_normals[pick])
+
+
+def _cells_per_span(area: Array, statistics: ScanStatistics) -> int:
+    """Cells along a span of the size, by area (spans,) in mm², in which most of the surface lies."""
+    points = statistics.density * np.average(area, weights=area)
+    return int(np.clip(np.sqrt(points / _POINTS_PER_CELL), *_CELLS_PER_SPAN))
 
 
 def _same_for_all(values: Array) -> Array:
