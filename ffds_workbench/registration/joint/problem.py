@@ -12,10 +12,11 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
+from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .linear import Pattern
 from .part import JointPart
-from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
+from .priors import (GAUSS_PLACES, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
                      make_stiffness)
 from .settings import JointSettings, PriorTrust
 from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals, span_counts
@@ -52,8 +53,7 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending across
-        the surfaces and within them, of the distance of opposite skins in all directions, of sharp edges
+    constant : rows that are the same at every shape
     sides : where the faces lie at their edges
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -70,7 +70,7 @@ class Problem:
     stiffness: Stiffness
     couplings: Couplings
     pattern: Pattern
-    constant: Array
+    constant: ConstantRows
     sides: EdgeSides
     margin: Array
     sample_normals: Array | None = None
@@ -108,6 +108,11 @@ class Problem:
         """Whether a span belongs to the skin of a sheet."""
         return self.sheet_of_span > 0
 
+    @cached_property
+    def skin_blocks(self) -> NDArray[np.bool_]:
+        """Whether a block of the pattern belongs to the skin of a sheet: (size,)."""
+        return (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
+
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
         weight = self.settings.isometry_weight * trust.isometry
@@ -143,11 +148,9 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
-    constant = np.stack([_same_for_all(pattern.from_scalar(couplings.scalar)) + pattern.from_vector(couplings.smooth),
-                         *_bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
-                         pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
-                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
+                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
+                   constant_rows(pattern, stiffness, couplings),
                    edge_sides(couplings.edges),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
                    None if scan_normals is None else scan_normals[pick])
@@ -157,20 +160,6 @@ def _cells_per_span(area: Array, statistics: ScanStatistics) -> int:
     """Cells along a span of the size, by area (spans,) in mm², in which most of the surface lies."""
     points = statistics.density * np.average(area, weights=area)
     return int(np.clip(np.sqrt(points / _POINTS_PER_CELL), *_CELLS_PER_SPAN))
-
-
-def _same_for_all(values: Array) -> Array:
-    """Values (size,) for each of x, y and z: (size, 3, 3)."""
-    return values[:, None, None] * np.eye(3)
-
-
-def _bending(pattern: Pattern, stiffness: Stiffness) -> tuple[Array, Array]:
-    """Rows of bending across the surfaces and within them on the pattern: (size, 3, 3) each."""
-    every, along = stiffness.bending_blocks()
-    across = np.empty((pattern.size, 3, 3))
-    for number, (a, b) in enumerate(COMPONENTS):
-        across[:, a, b] = across[:, b, a] = pattern.from_spans(along[:, number])
-    return across, SLIDING * (_same_for_all(pattern.from_spans(every)) - across)
 
 
 def _positions(lattices: Lattices, cells: SpanGrid) -> Array:

@@ -68,7 +68,7 @@ class JointSettings:
 
     Attributes
     ----------
-    spans : over the size of a solid, where the scan is dense
+    spans : of a lattice over the size of a solid, where the scan is dense; a bracket of 100 mm gets 12 mm
     turning : largest turn of the normal over a span in rad, of faces as round as their solid is large
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
     curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; bending weighs 1/(κ₀ l)²
@@ -83,7 +83,7 @@ class JointSettings:
     seed : of the random sample of scan points
     """
 
-    spans: float = 9.0
+    spans: float = 10.0
     turning: float = float(np.deg2rad(25))
     isometry: Literal["auto", "on", "off"] = "auto"
     curvature: float = 0.002

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The deformed surfaces of all faces: `lattices` (control points, numbered together), `span_counts` (how many), `cells` (the raster over them),
-`places` (scattered places on faces) and `close_seams` (lattices made exact where a surface meets itself).
+"""The deformed surfaces of all faces: `lattices` (control points, numbered together), `span_counts` (how many of them),
+`cells` (the raster over them), `places` (scattered places on faces) and `close_seams` (lattices made exact where a
+surface meets itself).
 """
 from .cells import Jet, SpanGrid, by_face, distance_to_trims, make_span_grid, normals
 from .close_seams import close_seams

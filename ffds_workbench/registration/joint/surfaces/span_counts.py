@@ -17,14 +17,16 @@ from ...face_geometry import FaceGeometry
 LEAST_CLOSED_SPANS = 8
 """On a direction that closes on itself. *theory*: four follow how a ring moves and turns, eight how it becomes oval."""
 _PROBES_PER_SIDE = 17
-_ENOUGH = 0.25
-"""Part of a span by which all may be longer than wanted, rather than one more. *unit*: no one sees a quarter."""
+_MOST_TURN = 0.5 * np.pi
+"""Largest turn of the normal over a span, in rad. *theory*: cubics follow a quarter of a circle, not half of one."""
+_SPARE = 0.25
+"""Part of a span that may be missing. *unit*: spans a little longer than wanted rather than one more."""
 
 
 @dataclass(frozen=True)
 class _Extent:
-    """Of one face: ``length`` (2,) in mm and ``turn`` (2,) of the normal in rad, in u and v; of the cells of a grid over
-    it ``middle`` (n, 3) in mm and ``area`` (n,) in mm²."""
+    """Of one face: ``length`` (2,) in mm and ``turn`` (2,) of the normal in rad, in u and v; of the cells of a grid
+    over it ``middle`` (n, 3) in mm and ``area`` (n,) in mm²."""
 
     length: Array
     turn: Array
@@ -55,8 +57,8 @@ def _counts(face: FaceGeometry, extent: _Extent, size: float, span: float, turni
     """Spans of one face. On an arc a turn of the solid moves the surface by a sine of the angle, times the radius; what
     a cubic misses of it goes with the fourth power of a span (de Boor, A Practical Guide to Splines, chapter XII)."""
     radius = extent.length / np.maximum(extent.turn, 1e-9)
-    turns = extent.turn / np.minimum(turning * (0.5 * size / radius) ** 0.25, 0.5 * np.pi)
-    wanted = np.ceil(np.maximum(extent.length / span, turns) - _ENOUGH).astype(int)
+    turns = extent.turn / np.minimum(turning * (0.5 * size / radius) ** 0.25, _MOST_TURN)
+    wanted = np.ceil(np.maximum(extent.length / span, turns) - _SPARE).astype(int)
     closed = face.surface.periodic_u, face.surface.periodic_v
     u, v = (max(int(count), LEAST_CLOSED_SPANS if periodic else 1)
             for count, periodic in zip(wanted, closed, strict=True))
