@@ -15,9 +15,9 @@ SHARED = ROOT.parent / "shared"
 if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
-from ffds_workbench import _freecad
+from ffds_workbench import find_freecad
 
-_freecad.activate()
+find_freecad.activate()
 
 os.environ.setdefault("MPLBACKEND", "Agg")
 

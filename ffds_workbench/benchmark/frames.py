@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Welded frames of any size: two rails, cross tubes between them and gusset plates on top, all of them touching solids."""
+"""Welded frames of any size: two rails, cross tubes between them and gusset plates on top, solids that touch."""
 from __future__ import annotations
 
 import Part

@@ -29,8 +29,8 @@ SIZES = (100_000, 1_000_000, 5_000_000)
 _RADIUS, _LENGTH = 20.0, 60.0
 _ROUNDS = 4
 _ALONE = """
-from ffds_workbench import _freecad
-_freecad.activate()
+from ffds_workbench import find_freecad
+find_freecad.activate()
 from ffds_workbench.benchmark.speed import peak_megabytes
 print(peak_megabytes({}))
 """

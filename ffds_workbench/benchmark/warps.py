@@ -95,6 +95,11 @@ def bumps(amplitude: float, width: float, count: int, box: tuple[Array, Array], 
     return warp
 
 
+def bump(middle: Array, height: Array, width: float) -> Warp:
+    """One Gaussian bump of that width: ``middle`` (3,) moves by ``height`` (3,)."""
+    return lambda points: points + np.exp(-((points - middle) ** 2).sum(axis=1) / (2 * width**2))[:, None] * height
+
+
 def chain(*warps: Warp) -> Warp:
     """One deformation after the other."""
 

@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from .. import api
+from ..registration.request import RegistrationRequest
 from ..report.stopwatch import Progress
 from .scans import scan_cloud
 from .sources import Source, read_source
@@ -22,33 +23,19 @@ _results: OrderedDict[str, api.Result] = OrderedDict()
 
 
 @dataclass(frozen=True)
-class Settings:
-    """What `api.register` is asked for beside model and scan; see there."""
-
-    faces: tuple[str, ...] | None = None
-    freeze: tuple[str, ...] = ()
-    method: str = "robust"
-    lattice: tuple[int, int] | str = "auto"
-    source_points: int = 400
-    isometry: str = "auto"
-    stiffness: float = 1.0
-    gate: float | None = None
-
-
-@dataclass(frozen=True)
 class Job:
     """A registration in the part's own frame, so that it does not depend on where the part stands."""
 
     source: Source
     scan: api.PointCloud
-    settings: Settings
+    request: RegistrationRequest
 
     @cached_property
     def digest(self) -> str:
         """Differs where any input differs."""
         found = hashlib.blake2b(self.source.model.shape.exportBrepToString().encode())
         found.update(self.scan.tobytes())
-        found.update(repr(self.settings).encode())
+        found.update(repr(self.request).encode())
         return found.hexdigest()
 
     def run(self, progress: Progress | None = None) -> api.Result:
@@ -56,13 +43,10 @@ class Job:
 
         Raises
         ------
-        InputError, RefusedError : as `api.register` does
+        InputError, RefusedError : as `api.run` does
         """
         if self.digest not in _results:
-            wanted = self.settings
-            result = api.register(
-                self.source.model, self.scan, wanted.faces, wanted.method, wanted.lattice, wanted.freeze,
-                wanted.source_points, wanted.isometry, progress, wanted.stiffness, wanted.gate)
+            result = api.run(self.request, self.source.model, self.scan, progress)
             _ = result.report  # measured and waited for here, and not where the main thread asks for it
             _results[self.digest] = result
             while len(_results) > _KEPT:
@@ -70,17 +54,17 @@ class Job:
         return _results[self.digest]
 
 
-def make_job(item: Any, scan: Any, settings: Settings) -> Job:
+def make_job(item: Any, scan: Any, request: RegistrationRequest) -> Job:
     """The registration of a document object to a Points object (main thread only).
 
     Raises
     ------
     InputError : the part or the scan cannot be used
     """
-    return job_on(item, scan_cloud(scan), settings)
+    return job_on(item, scan_cloud(scan), request)
 
 
-def job_on(item: Any, scan: api.PointCloud, settings: Settings) -> Job:
+def job_on(item: Any, scan: api.PointCloud, request: RegistrationRequest) -> Job:
     """The registration of a document object to a scan in the document's coordinates; see `make_job`."""
     source = read_source(item)
-    return Job(source, source.to_part(scan), settings)
+    return Job(source, source.to_part(scan), request)

@@ -15,11 +15,11 @@ from ..arrays import Array, Index
 from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .linear import Pattern
-from .part import JointPart
-from .priors import (GAUSS_PLACES, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
+from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
                      make_stiffness)
-from .settings import JointSettings, PriorTrust
-from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals, span_counts
+from .settings import JointSettings
+from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals,
+                       span_counts)
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
-from ..face_geometry import FaceGeometry
+from ...arrays import Array
+from ...face_geometry import FaceGeometry
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Array
-from ..part import JointPart, SharedEdge
 from .lattices import FaceLattice, Lattices
+from .part import JointPart, SharedEdge
 
 _ON_SIDE = 1e-6
 
