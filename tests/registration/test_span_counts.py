@@ -12,9 +12,9 @@ from ffds_workbench.registration.joint import JointSettings
 from ffds_workbench.registration.joint.surfaces import span_counts
 
 
-def counts(shape, least=1e-6):
+def counts(shape, least=1e-6, finer=None):
     part, settings = joint_part(read(shape)), JointSettings()
-    return span_counts(part.faces, part.solids, settings.spans, settings.turning, least)
+    return span_counts(part.faces, part.solids, settings.spans, settings.turning, least, finer)
 
 
 def tube(length, width, radius, wall):
@@ -57,3 +57,12 @@ def test_solids_of_an_assembly_have_spans_of_their_own_size():
 
 def test_a_span_is_never_smaller_than_what_the_scan_fills():
     assert max(max(pair) for pair in counts(Part.makeBox(100, 60, 30), least=50.0)) == 2
+
+
+def test_finer_spans_are_divided_along_their_longer_side():
+    """Faces of a rod of 100 × 6 × 6 have spans of 10 × 6, its ends one of 6 × 6."""
+    shape = Part.makeBox(100, 6, 6)
+    for before, after in zip(counts(shape), counts(shape, finer=dict.fromkeys(range(6), 2)), strict=True):
+        assert after == tuple(2 * n for n in before)
+    shape = Part.makeBox(100, 3, 3)
+    assert {tuple(sorted(pair)) for pair in counts(shape, finer=dict.fromkeys(range(6), 2))} == {(1, 20), (2, 2)}

@@ -134,10 +134,9 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
     sample = scan[pick]
     statistics = scan_statistics(scan)
-    counts = span_counts(part.faces, part.solids, settings.spans, settings.turning,
-                         np.sqrt(_POINTS_PER_SPAN / statistics.density))
-    lattices = build_lattices(part.faces, [(finer.get(index, 1) * u, finer.get(index, 1) * v)
-                                           for index, (u, v) in enumerate(counts)])
+    least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
+    lattices = build_lattices(part.faces, span_counts(part.faces, part.solids, settings.spans, settings.turning, least,
+                                                      finer))
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)

@@ -6,7 +6,7 @@ tube of 1 m needs ten spans along it and one across, a clip of 10 mm as many as 
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +35,7 @@ class _Extent:
 
 
 def span_counts(faces: Sequence[FaceGeometry], solids: Sequence[Index], spans: float, turning: float,
-                least: float) -> list[tuple[int, int]]:
+                least: float, finer: Mapping[int, int] | None = None) -> list[tuple[int, int]]:
     """Numbers of spans in u and v of every face.
 
     Parameters
@@ -44,13 +44,17 @@ def span_counts(faces: Sequence[FaceGeometry], solids: Sequence[Index], spans: f
     spans : over the size of a solid
     turning : largest turn of the normal over a span in rad, where a face is as round as its solid is large
     least : size of a span in mm that the scan fills
+    finer : by face, the number by which its spans are divided; long and narrow ones along their longer sides alone
     """
+    finer = finer or {}
     extents = [_extent(face) for face in faces]
     size = np.ones(len(faces))
     for solid in solids:
         size[solid] = _size([extents[index] for index in solid])
-    return [_counts(face, extent, own, max(own / spans, least), turning)
-            for face, extent, own in zip(faces, extents, size, strict=True)]
+    counts = [_counts(face, extent, own, max(own / spans, least), turning)
+              for face, extent, own in zip(faces, extents, size, strict=True)]
+    return [_divided(count, extent, finer.get(index, 1))
+            for index, (count, extent) in enumerate(zip(counts, extents, strict=True))]
 
 
 def _counts(face: FaceGeometry, extent: _Extent, size: float, span: float, turning: float) -> tuple[int, int]:
@@ -62,6 +66,14 @@ def _counts(face: FaceGeometry, extent: _Extent, size: float, span: float, turni
     closed = face.surface.periodic_u, face.surface.periodic_v
     u, v = (max(int(count), LEAST_CLOSED_SPANS if periodic else 1)
             for count, periodic in zip(wanted, closed, strict=True))
+    return u, v
+
+
+def _divided(counts: tuple[int, int], extent: _Extent, number: int) -> tuple[int, int]:
+    """``counts`` times a number, but where spans are more than that many times as long the one way as the other."""
+    sides = extent.length / np.array(counts)
+    u, v = (count * number if side * number > sides.max() else count
+            for count, side in zip(counts, sides, strict=True))
     return u, v
 
 
