@@ -93,7 +93,7 @@ class JointSettings:
     seed : of the random sample of scan points
     """
 
-    spans: float = 10.0
+    spans: float = 11.0
     turning: float = float(np.deg2rad(25))
     isometry: Literal["auto", "on", "off"] = "auto"
     curvature: float = 0.002
