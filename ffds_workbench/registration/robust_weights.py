@@ -6,6 +6,12 @@ import numpy as np
 
 from .arrays import Array
 
+MAD = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation (theory)."""
+TUKEY = 4.685
+"""Cut-off of Tukey's biweight, in standard deviations, with 95 % efficiency on normal noise (theory: Holland and
+Welsch, Communications in Statistics A6, 1977)."""
+
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:
     """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""

@@ -16,7 +16,8 @@ from ...errors import RefusedError
 from ..arrays import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
 from .body_field import add_body, body_rows, body_tells
-from .data import Correspondence, correspond, find_borders, find_near_edges, make_frames, medians, tukey_means
+from .data import (CellValues, Correspondence, Scatter, correspond, find_borders, find_near_edges, make_frames, medians,
+                   tukey_means)
 from .joint_result import JointRegistration
 from .lattice_refinement import finer_faces, transfer
 from .linear import solve
@@ -128,15 +129,14 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 def _is_off(problem: Problem, state: State) -> bool:
     """Whether the shape lies somewhere farther off the scan than its noise."""
-    return bool(misfit(problem, state.values).max() > problem.statistics.noise**2)
+    return bool(misfit(problem, state.values).max() > problem.lengths.start**2)
 
 
 def iterate(problem: Problem, stage: Stage, state: State) -> State:
     """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     found = _match(problem, stage, state, jet)
-    cell_values = tukey_means if stage.all_points else medians
-    values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
+    values = _weigh(problem, stage, found, state.values.scatter)
     kept = _renew(problem, stage, replace(state, values=values), jet)
     equations = shape_equations(problem, state.control_points, stage.bending, state.trust, kept.strained, kept.across)
     add_data(equations, problem, jet, values)
@@ -150,8 +150,8 @@ def iterate(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     kept = replace(kept, nearest=found.nearest, turned=kept.turned + last_step, factor=factor,
                    stiff=stage.bending if factor is not near else kept.stiff)
-    return replace(state, control_points=state.control_points + step, values=values, noise=values.noise,
-                   last_step=last_step, iterations=state.iterations + 1, kept=kept)
+    return replace(state, control_points=state.control_points + step, values=values, last_step=last_step,
+                   iterations=state.iterations + 1, kept=kept)
 
 
 def _match(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
@@ -166,6 +166,14 @@ def _match(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspond
     return found
 
 
+def _weigh(problem: Problem, stage: Stage, found: Correspondence, scatter: Scatter) -> CellValues:
+    """A height and a weight for every cell."""
+    face_of_span, per_span = problem.lattices.face_of_span, problem.distance.shape[1]
+    if not stage.all_points:
+        return medians(found, scatter, face_of_span, per_span)
+    return tukey_means(found, scatter, face_of_span, per_span, (problem.lengths.resolution, problem.lengths.model))
+
+
 def _renew(problem: Problem, stage: Stage, state: State, jet: Jet) -> Kept:
     """What is kept, renewed where the shape has moved too far since."""
     kept, control_points = state.kept, state.control_points
@@ -174,7 +182,8 @@ def _renew(problem: Problem, stage: Stage, state: State, jet: Jet) -> Kept:
     if stage.soft:
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, kept.near_edges)
-        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, kept.borders)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise, problem.lengths.start,
+                               kept.borders)
         kept = replace(kept, near_edges=near_edges, borders=borders)
         if stage.body:
             kept = replace(kept, body=body_rows(problem, control_points, jet, state.values, borders, kept.body))

@@ -5,22 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ...errors import RefusedError
 from ..arrays import Array, Index
 from .assembly import strain_blocks
 from .body_field import BodyRows
-from .data import Borders, CellValues, NearEdges, nothing
+from .data import Borders, CellValues, NearEdges, Scatter, nothing
 from .linear import FrontCholesky
 from .problem import Across, Problem
 from .settings import Trust
-
-_TYPICAL, _SEEN = 0.75, 0.4
-"""Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
-the scan shows the part, or, where a table fills it, some of the part is seen."""
-_REACH = 1.5
-_LEAST_REACH = 3.0
 
 
 @dataclass(frozen=True)
@@ -56,7 +48,6 @@ class State:
     Attributes
     ----------
     control_points : (controls, 3) displacement in mm
-    noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
     kept : for the next one
@@ -68,7 +59,6 @@ class State:
     """
 
     control_points: Array
-    noise: Array
     reach: float
     values: CellValues
     kept: Kept
@@ -85,21 +75,8 @@ def keep(problem: Problem, control_points: Array) -> Kept:
 
 
 def start(problem: Problem) -> State:
-    """The nominal shape.
-
-    Raises
-    ------
-    RefusedError : the scan is farther from the part than the part is large
-    """
-    typical = float(np.sort(problem.apart)[int(_TYPICAL * (len(problem.apart) - 1))])
-    if not np.isfinite(typical):
-        raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
-                           "check the unit of the scan and align it first.")
-    if typical > _LEAST_REACH / _REACH:
-        back = cKDTree(problem.sample).query(problem.cells.nominal.position[problem.cells.inside], workers=-1)[0]
-        typical = min(typical, float(np.quantile(back, _SEEN)))
-    faces = len(problem.part.faces)
-    noise = np.full(faces, problem.statistics.noise)
+    """The nominal shape."""
+    faces, lengths = len(problem.part.faces), problem.lengths
     still = np.zeros((problem.lattices.count, 3))
-    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
-                 nothing(problem.distance.size, noise), keep(problem, still))
+    scatter = Scatter(np.full(faces, lengths.noise), np.zeros(faces), np.full(faces, lengths.start))
+    return State(still, lengths.reach, nothing(problem.distance.size, scatter), keep(problem, still))
