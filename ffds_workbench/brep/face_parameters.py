@@ -12,7 +12,7 @@ from ..registration.splines import DEGREE
 from .surface_fit import ParameterBox
 
 _CURVE_SAMPLES = 65
-_QUARTER = 0.5 * np.pi
+_QUARTER_TURN = 0.5 * np.pi
 _WIDENING = 0.002
 _COINCIDENT = 1e-7
 """Points of a surface this close (mm) are one: OCCT's own precision."""
@@ -33,10 +33,11 @@ def closed_form(surface: Part.GeometrySurface) -> Callable[[Array, Array], Array
     kind = type(surface).__name__
     if kind not in ("Plane", "Cylinder"):
         return None
-    origin, right, up = (np.array(tuple(surface.value(u, v))) for u, v in ((0.0, 0.0), (_QUARTER, 0.0), (0.0, 1.0)))
+    origin, right, up = (np.array(tuple(surface.value(u, v)))
+                         for u, v in ((0.0, 0.0), (_QUARTER_TURN, 0.0), (0.0, 1.0)))
     along = up - origin
     if kind == "Plane":
-        across = (right - origin) / _QUARTER
+        across = (right - origin) / _QUARTER_TURN
         return lambda u, v: origin + u[..., None] * across + v[..., None] * along
     centre = 0.5 * (origin + np.array(tuple(surface.value(np.pi, 0.0))))
     axes = origin - centre, right - centre

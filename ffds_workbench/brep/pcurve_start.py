@@ -17,16 +17,16 @@ from ..registration.arrays import Array
 from .edges import PlacedCurve, Trace
 from .occt_text import fit_curve, print_curve
 
-_MORE, _LATEST = 1.3, 9.5e-5
+_SAFETY, _LATEST_START = 1.3, 9.5e-5
 """How much more, and the latest start in mm; an edge that gapes more does so in the nominal."""
-_SPAN, _LONGEST_SPAN = 1e-3, 0.2
+_LEAST_SPAN, _LONGEST_SPAN = 1e-3, 0.2
 """Part of the edge along which the pcurve catches up; more where the edge is short, but no more than this."""
 _SPAN_PER_LATENESS = 6.0
-_STEP = 1e-4
+_PROBE_STEP = 1e-4
 _PCURVE_TOLERANCE = 1e-7
 
 
-def late(trace: Trace, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:
+def delay_pcurve_start(trace: Trace, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:
     """The trace starting late by a little more than ``gap`` (mm); None where the edge is too short or gapes too much.
 
     Parameters
@@ -36,13 +36,13 @@ def late(trace: Trace, curve: PlacedCurve, gap: float, vertex: Array) -> Trace |
     gap : largest distance in mm of the curve from any of its traces
     vertex : (3,), where the edge starts
     """
-    start, soon = trace.at(np.array([0.0, _STEP]))
-    speed = float(np.linalg.norm(soon - start)) / _STEP
+    start, soon = trace.at(np.array([0.0, _PROBE_STEP]))
+    speed = float(np.linalg.norm(soon - start)) / _PROBE_STEP
     begin = curve.at(np.zeros(1))[0]
     shift = float(np.linalg.norm(vertex - begin))
-    lateness = _MORE * (gap + shift) + float(np.linalg.norm(start - begin)) + shift
-    span = max(_SPAN, _SPAN_PER_LATENESS * lateness / max(speed, 1e-12))
-    if span > _LONGEST_SPAN or lateness > _LATEST:
+    lateness = _SAFETY * (gap + shift) + float(np.linalg.norm(start - begin)) + shift
+    span = max(_LEAST_SPAN, _SPAN_PER_LATENESS * lateness / max(speed, 1e-12))
+    if span > _LONGEST_SPAN or lateness > _LATEST_START:
         return None
     pcurve = trace.pcurve
     length = pcurve.last - pcurve.first

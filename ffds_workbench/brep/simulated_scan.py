@@ -9,7 +9,7 @@ import numpy as np
 import Part
 
 from ..registration.arrays import Array
-from ..scan.sensor import SensorSettings, SimulatedScan, Target, Truth, make_truth, simulate
+from ..scan.sensor import Scene, SensorSettings, SimulatedScan, Truth, make_truth, simulate
 from ..scan.sensor.target import Displace
 from ..scan.sensor.truth import EDGE_SAMPLES
 from . import workpiece
@@ -23,7 +23,7 @@ class Simulation:
     truth: Truth
 
 
-def target_of(shape: Part.Shape, displace: Mapping[int, Displace] | None = None) -> Target:
+def scene_of(shape: Part.Shape, displace: Mapping[int, Displace] | None = None) -> Scene:
     """What the sensor sees of a shape whose faces (by index) may be displaced.
 
     Raises
@@ -31,7 +31,7 @@ def target_of(shape: Part.Shape, displace: Mapping[int, Displace] | None = None)
     InputError : the shape is empty or has no faces
     """
     part = workpiece.read(shape)
-    return Target([part.geometry(index) for index in range(len(part.faces))], displace)
+    return Scene([part.geometry(index) for index in range(len(part.faces))], displace)
 
 
 def simulate_shape(shape: Part.Shape, settings: SensorSettings) -> Simulation:
@@ -42,7 +42,7 @@ def simulate_shape(shape: Part.Shape, settings: SensorSettings) -> Simulation:
     InputError : the shape is empty or has no faces
     RefusedError : no view sees anything of it
     """
-    target = target_of(shape)
+    target = scene_of(shape)
     edges = edge_points(shape)
     return Simulation(simulate(target, settings), make_truth(target, settings, edges, edges))
 

@@ -22,13 +22,13 @@ from .kinks import without_false_kinks
 GridFunction = Callable[[Array, Array], Array]
 """f(u (m,), v (n,)) -> values on the grid, (m, n, 3)."""
 
-_CHECKS = np.array([0.21, 0.5, 0.79])
-_LINES = 16, 60
+_CHECK_PLACES = np.array([0.21, 0.5, 0.79])
+_CHECK_LINES = 16, 60
 """Lines across along which errors are looked at: while the knots are refined, and to be sure in the end."""
 _SHORTEST_SPAN = 1e-5
 """Spans shorter than this share of their side are not divided: at a kink that no knot marks it would never end, and
 OCCT reads no surface whose knots coincide but for rounding."""
-_KINK = 1e-6
+_KINKED_SLOPE = 1e-6
 """Relative change of the derivative at a knot of multiplicity three from which on it stays one."""
 _DEGENERATE_ROW = 1e-7
 """A row of control points within this box (mm) is a pole of the surface and is made exactly one point."""
@@ -75,7 +75,7 @@ class Direction:
     def checks(self) -> Array:
         """Parameters inside every span, where the interpolation error is looked at; (spans, 3)."""
         breaks = np.unique(np.concatenate([[self.start], self.interior, [self.end]]))
-        return breaks[:-1, None] + np.diff(breaks)[:, None] * _CHECKS
+        return breaks[:-1, None] + np.diff(breaks)[:, None] * _CHECK_PLACES
 
     def solve(self, values: Array) -> Array:
         """Control points that interpolate values at the sites along axis 0, without the repeated ones."""
@@ -136,10 +136,10 @@ def _smoothed(side: Direction, f: Callable[[Array], Array]) -> Direction:
     def inside(x: Array) -> Array:
         return f(np.clip(x, side.start, side.end))
 
-    return replace(side, interior=without_false_kinks(inside, side.interior, side.end - side.start, _KINK))
+    return replace(side, interior=without_false_kinks(inside, side.interior, side.end - side.start, _KINKED_SLOPE))
 
 
-def _some(x: Array, most: int) -> Array:
+def _at_most(x: Array, most: int) -> Array:
     return x if len(x) <= most else x[np.linspace(0, len(x) - 1, most).round().astype(int)]
 
 
@@ -153,7 +153,7 @@ def _interpolate(f: GridFunction, u: Direction, v: Direction) -> SplineSurface:
 def _errors(f: GridFunction, surface: SplineSurface, u: Direction, v: Direction, lines: int) -> tuple[Array, Array]:
     """Largest interpolation error per span of u and per span of v, each taken at the other direction's sites."""
     cu, cv = u.checks, v.checks
-    su, sv = _some(np.sort(u.sites), lines), _some(np.sort(v.sites), lines)
+    su, sv = _at_most(np.sort(u.sites), lines), _at_most(np.sort(v.sites), lines)
     in_u = np.linalg.norm(f(cu.ravel(), sv) - surface.on_grid(cu.ravel(), sv), axis=2)
     in_v = np.linalg.norm(f(su, cv.ravel()) - surface.on_grid(su, cv.ravel()), axis=2)
     return in_u.reshape(len(cu), -1).max(axis=1), in_v.T.reshape(len(cv), -1).max(axis=1)
@@ -178,11 +178,11 @@ def approximate(f: GridFunction, box: ParameterBox, seeds_u: Array, seeds_v: Arr
     """
     u = direction(box.u0, box.u1, seeds_u, box.closed_u)
     v = direction(box.v0, box.v1, seeds_v, box.closed_v)
-    u = _smoothed(u, lambda x: f(x, _some(v.sites, _LINES[0])))
-    v = _smoothed(v, lambda x: f(_some(u.sites, _LINES[0]), x).swapaxes(0, 1))
+    u = _smoothed(u, lambda x: f(x, _at_most(v.sites, _CHECK_LINES[0])))
+    v = _smoothed(v, lambda x: f(_at_most(u.sites, _CHECK_LINES[0]), x).swapaxes(0, 1))
     for _ in range(rounds):
         surface = _interpolate(f, u, v)
-        for lines in _LINES:
+        for lines in _CHECK_LINES:
             error_u, error_v = _errors(f, surface, u, v, lines)
             if max(error_u.max(), error_v.max()) > tolerance:
                 break

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from .arrays import Array
 
-_ALONG, _TURNED = 0.9998, 0.02
+_ALONG_AXIS_COSINE, _TURNED_ANGLE = 0.9998, 0.02
 """Cosine from which a direction counts as along an axis, and turn in rad from which poses count as turned."""
 
 
@@ -32,7 +32,7 @@ def best_fit(points: Array, goals: Array, weights: Array | None = None) -> Array
     return motion(rotation, goal - rotation @ middle)
 
 
-def step(twists: Array, centre: Array) -> Array:
+def twist_motion(twists: Array, centre: Array) -> Array:
     """Motions that turn by the rotation vectors twists[..., :3] about ``centre`` and shift by twists[..., 3:].
 
     Parameters
@@ -94,7 +94,7 @@ def even_directions(count: int) -> Array:
 def axis_name(axis: Array) -> str:
     """What a unit vector (3,) is called: x, y or z, with a sign, where it is one of them, else its components."""
     largest = int(np.argmax(np.abs(axis)))
-    if abs(axis[largest]) > _ALONG:
+    if abs(axis[largest]) > _ALONG_AXIS_COSINE:
         return ("−" if axis[largest] < 0 else "") + "xyz"[largest]
     return "({:.2f}, {:.2f}, {:.2f})".format(*np.round(axis, 2) + 0.0)
 
@@ -107,7 +107,7 @@ def turn_name(turn: Array, near: float) -> str:
     return f"{np.degrees(size):.0f}° about {axis_name(axis)}"
 
 
-def difference(first: Array, second: Array, place: Array) -> str:
+def describe_difference(first: Array, second: Array, place: Array) -> str:
     """How the second pose (4, 4) differs from the first, in words.
 
     Parameters
@@ -116,8 +116,8 @@ def difference(first: Array, second: Array, place: Array) -> str:
     """
     between = second @ np.linalg.inv(first)
     turn = Rotation.from_matrix(between[:3, :3]).as_rotvec()
-    if np.linalg.norm(turn) > _TURNED:
-        return "turned by " + turn_name(turn, _TURNED)
+    if np.linalg.norm(turn) > _TURNED_ANGLE:
+        return "turned by " + turn_name(turn, _TURNED_ANGLE)
     way = apply(between, place[None])[0] - place
     length = float(np.linalg.norm(way))
     return f"moved by {length:.2g} mm along {axis_name(way / max(length, 1e-12))}"

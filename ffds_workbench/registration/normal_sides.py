@@ -10,13 +10,13 @@ from scipy.spatial import cKDTree
 from .arrays import Array
 from .parallel import workers
 
-_SURE = 0.6
+_LEAST_AGREEMENT = 0.6
 """Cosine below which two neighbours say nothing about each other's side."""
-_FAR = 4.0
+_FAR_NEIGHBOUR = 4.0
 """Neighbours farther than the usual ones by this factor are of another surface."""
 
 
-def turn_to_one_side(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:
+def orient_normals(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:
     """Flip normals so that neighbours agree: clusters of points merge, each with the one it shares most votes with.
 
     A single link may be wrong, above all around the rim of a thin sheet, and a spanning tree of such links then turns
@@ -64,7 +64,7 @@ def _links(points: Array, normals: Array, neighbours: int) -> tuple[NDArray[np.i
     theirs, step = normals.take(index, axis=0), points.take(index, axis=0) - points[:, None]
     dot, rise = ((values @ normals[:, :, None])[:, :, 0] for values in (theirs, step))
     agrees = dot - 2.0 * rise * np.einsum("nki,nki->nk", theirs, step) / np.maximum(length, 1e-12) ** 2
-    linked = (length < _FAR * np.median(length)) & (np.abs(agrees) > _SURE)
+    linked = (length < _FAR_NEIGHBOUR * np.median(length)) & (np.abs(agrees) > _LEAST_AGREEMENT)
     return np.nonzero(linked)[0], index[linked], agrees[linked]
 
 

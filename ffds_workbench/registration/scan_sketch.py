@@ -13,26 +13,27 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from .arrays import Array
-from .normal_sides import turn_to_one_side
+from .normal_sides import orient_normals
 from .parallel import workers
+from .robust_weights import robust_sigma
 
-_POOL = 40_000
-_POINTS, _FINER = 2_000, 4
-_NEIGHBOURS = (14, 40)
-_ROUGH = 0.22
+_POOL_SIZE = 40_000
+_POINT_COUNT, _FINER_FACTOR = 2_000, 4
+_PLANE_NEIGHBOURS = (14, 40)
+_ROUGHNESS = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
-_SPARSE, _ALONE = 4.0, 1.6
+_SPARSE_IN_SCAN, _ALONE_AMONG_OWN = 4.0, 1.6
 """A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
 its neighbours' own are."""
-_OTHERS, _EVERY, _USUAL, _THIN = 9, 3, 500, 1.3
+_DENSITY_NEIGHBOURS, _NEIGHBOUR_STRIDE, _MEDIAN_POINTS, _DOUBTFUL_DENSITY = 9, 3, 500, 1.3
 """Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
 over it from which a point may be stray."""
-_INVERSE = 2
+_INVERSE_STEPS = 2
 """Steps of inverse iteration for a normal after the first one: each divides its error by that of the two least
 eigenvalues, 4 and more where the surface is one."""
-_ALMOST = 1.15
+_COUNT_TOLERANCE = 1.15
 """So many times as many points are as many."""
-_DENSE = 100
+_CELLS_PER_POINT = 100
 """Cells per point up to which a table of all cells is faster than to sort the points."""
 
 
@@ -59,7 +60,7 @@ class Sketch:
     @cached_property
     def spacing(self) -> float:
         """Median distance in mm between neighbouring points."""
-        return float(np.median(cKDTree(self.points).query(self.points[:_USUAL], k=2)[0][:, 1]))
+        return float(np.median(cKDTree(self.points).query(self.points[:_MEDIAN_POINTS], k=2)[0][:, 1]))
 
     def every(self, step: int) -> Sketch:
         """The same of fewer points."""
@@ -85,8 +86,8 @@ class Plane:
         return points @ self.normal - self.offset
 
 
-def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS, pool_size: int = _POOL,
-              finer: int = _FINER) -> Sketch:
+def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_COUNT, pool_size: int = _POOL_SIZE,
+              finer: int = _FINER_FACTOR) -> Sketch:
     """Even points with normals from a random part of the scan; what stands alone is dropped.
 
     Parameters
@@ -100,21 +101,21 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINTS,
     pool = scan if len(scan) <= pool_size else scan.take(generator.integers(0, len(scan), pool_size), axis=0)
     tree = cKDTree(pool, balanced_tree=False, compact_nodes=False)
     points = pool[thin(pool, finer * count)]
-    distance, index = tree.query(points, k=min(_NEIGHBOURS[0], len(pool)), workers=workers(points))
-    among = _among_others(tree, distance, index)
+    distance, index = tree.query(points, k=min(_PLANE_NEIGHBOURS[0], len(pool)), workers=workers(points))
+    among = _not_isolated(tree, distance, index)
     points, distance, index = points[among], distance[among], index[among]
     normals, roughness = _local_planes(pool[index])
-    if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) > _ROUGH:
-        index = tree.query(points, k=min(_NEIGHBOURS[1], len(pool)), workers=workers(points))[1]
+    if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) > _ROUGHNESS:
+        index = tree.query(points, k=min(_PLANE_NEIGHBOURS[1], len(pool)), workers=workers(points))[1]
         normals, roughness = _local_planes(pool[index])
-    normals, piece = turn_to_one_side(points, normals)
+    normals, piece = orient_normals(points, normals)
     even = thin(points, count)
     return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool, scan)
 
 
 def thin(points: Array, count: int) -> NDArray[np.intp]:
     """Indices of about ``count`` points, one per voxel of a size found by bisection."""
-    if len(points) <= _ALMOST * count:
+    if len(points) <= _COUNT_TOLERANCE * count:
         return np.arange(len(points))
     low, high = 0.0, float(np.ptp(points, axis=0).max())
     base = np.ascontiguousarray((points - points.min(axis=0)).T)
@@ -122,7 +123,7 @@ def thin(points: Array, count: int) -> NDArray[np.intp]:
     probe = high / np.sqrt(count)
     for _ in range(12):
         chosen = _first_of_each((base * (1.0 / probe)).astype(np.int64))
-        if count <= _ALMOST * len(chosen) and len(chosen) <= _ALMOST * count:
+        if count <= _COUNT_TOLERANCE * len(chosen) and len(chosen) <= _COUNT_TOLERANCE * count:
             break
         low, high = (probe, high) if len(chosen) > count else (low, probe)
         probe *= np.sqrt(len(chosen) / count)
@@ -135,14 +136,14 @@ def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
     """Index of a point in each of the cells (3, n), numbered from 0, that hold any."""
     shape = cell.max(axis=1) + 1
     key = (cell[0] * shape[1] + cell[1]) * shape[2] + cell[2]
-    if np.prod(shape, dtype=float) > _DENSE * len(key):
+    if np.prod(shape, dtype=float) > _CELLS_PER_POINT * len(key):
         return np.unique(key, return_index=True)[1]
     first = np.full(shape.prod(), -1, dtype=np.intp)
     first[key] = np.arange(len(key))
     return first[first >= 0]
 
 
-def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _not_isolated(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Which points lie as dense as the scan does in the median, and as dense as their own neighbours do.
 
     The second is the local outlier factor (M. Breunig et al., LOF, 2000) in short: a stray point just above a surface
@@ -154,13 +155,13 @@ def _among_others(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> ND
     distance, index : (n, k) in mm, of the neighbours of some of its points: even ones, among which strays are far more
         frequent than in the scan
     """
-    k = min(_OTHERS, distance.shape[1])
-    usual = max(float(np.median(tree.query(tree.data[:_USUAL], k=k)[0][:, -1])), 1e-9)
+    k = min(_DENSITY_NEIGHBOURS, distance.shape[1])
+    usual = max(float(np.median(tree.query(tree.data[:_MEDIAN_POINTS], k=k)[0][:, -1])), 1e-9)
     farthest = distance[:, k - 1]
-    among = farthest < _SPARSE * usual
-    doubtful = np.flatnonzero(among & (farthest > _THIN * usual))
-    theirs = tree.query(tree.data[index[doubtful, 1:k:_EVERY]], k=k, workers=-1)[0][:, :, -1]
-    among[doubtful] = farthest[doubtful] < _ALONE * np.median(theirs, axis=1)
+    among = farthest < _SPARSE_IN_SCAN * usual
+    doubtful = np.flatnonzero(among & (farthest > _DOUBTFUL_DENSITY * usual))
+    theirs = tree.query(tree.data[index[doubtful, 1:k:_NEIGHBOUR_STRIDE]], k=k, workers=-1)[0][:, :, -1]
+    among[doubtful] = farthest[doubtful] < _ALONE_AMONG_OWN * np.median(theirs, axis=1)
     return among
 
 
@@ -194,7 +195,7 @@ def _flattest(scatter: Array) -> Array:
     inverse = np.stack([np.cross(scatter[:, k - 2], scatter[:, k - 1]) for k in range(3)], axis=2)
     longest = np.einsum("nik,nik->nk", inverse, inverse).argmax(axis=1)
     vector = inverse[np.arange(len(inverse)), :, longest]
-    for _ in range(_INVERSE):
+    for _ in range(_INVERSE_STEPS):
         vector = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
         vector = (inverse @ vector[:, :, None])[:, :, 0]
     return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300))
@@ -233,6 +234,6 @@ def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) ->
         return None
     if area < 1.2 * shadow:
         return None
-    spread = 1.4826 * float(np.median(np.abs(height[best])))
+    spread = robust_sigma(height[best])
     normal = side * vectors[2]
     return Plane(normal, float(normal @ centre), float(np.clip(6.0 * spread, 1e-3 * tolerance, tolerance)))

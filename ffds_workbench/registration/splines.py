@@ -17,7 +17,7 @@ from scipy.interpolate import BSpline
 from .arrays import Array
 
 DEGREE = 3
-_SMALL = 40000
+_DENSE_ENTRIES = 40000
 _CHUNK = 4096
 
 
@@ -41,7 +41,7 @@ def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int =
     Meant for grids, where it is small. Scattered points go through `basis_rows`.
     """
     count = len(knots) - degree - 1
-    if derivative == 0 and count * len(x) > _SMALL:
+    if derivative == 0 and count * len(x) > _DENSE_ENTRIES:
         return np.asarray(BSpline.design_matrix(x, knots, degree).toarray())
     return np.asarray(BSpline.construct_fast(knots, np.eye(count), degree)(x, nu=derivative))
 
@@ -163,9 +163,3 @@ def _differentiate(points: Array, knots: Array, degree: int) -> tuple[Array, Arr
     span = knots[degree + 1 : -1] - knots[1 : -degree - 1]
     scale = np.divide(degree, span, out=np.zeros_like(span), where=span > 0)
     return np.diff(points, axis=0) * scale.reshape((-1,) + (1,) * (points.ndim - 1)), knots[1:-1]
-
-
-def same_basis(surface: SplineSurface, control_points: Array) -> SplineSurface:
-    """A spline on the knots of ``surface`` with other control points, (nu, nv, dim)."""
-    return SplineSurface(surface.knots_u, surface.knots_v, control_points, surface.degree_u, surface.degree_v,
-                         surface.periodic_u, surface.periodic_v)

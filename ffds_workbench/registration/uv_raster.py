@@ -19,10 +19,10 @@ from .trims import boundary_points, inside_trims
 
 Index = NDArray[np.intp]
 
-_FEWEST, _MOST = 16, 256
+_LEAST_CELLS, _LARGEST_CELLS = 16, 256
 _LARGEST_TURN = 0.12
 """Largest turn of the normal along a cell in rad: the surface is taken as quadratic within one."""
-_FLAT = 1e-6
+_AFFINE_TOLERANCE = 1e-6
 DEEP = 3.0
 """Distances from the trims are known up to this, in mm."""
 
@@ -205,7 +205,7 @@ def is_affine(surface: SplineSurface) -> bool:
     grid = surface.on_grid(np.linspace(u0, u1, 9), np.linspace(v0, v1, 9))
     a, b = np.linspace(0, 1, 9)[:, None, None], np.linspace(0, 1, 9)[None, :, None]
     affine = grid[0, 0] + a * (grid[-1, 0] - grid[0, 0]) + b * (grid[0, -1] - grid[0, 0])
-    return bool(np.abs(grid - affine).max() < _FLAT)
+    return bool(np.abs(grid - affine).max() < _AFFINE_TOLERANCE)
 
 
 def dot(a: Array, b: Array) -> Array:
@@ -224,5 +224,5 @@ def _shape(surface: SplineSurface, cells: int) -> tuple[int, int]:
     for axis in (0, 1):
         turn = np.linalg.norm(np.diff(normal, axis=axis), axis=2).sum(axis=axis).max() * 33 / 31
         count = np.sqrt(cells * lengths[axis] / max(lengths[1 - axis], 1e-3 * lengths[axis]))
-        shape.append(int(np.clip(max(round(count), turn / _LARGEST_TURN), _FEWEST, _MOST)))
+        shape.append(int(np.clip(max(round(count), turn / _LARGEST_TURN), _LEAST_CELLS, _LARGEST_CELLS)))
     return shape[0], shape[1]

@@ -10,7 +10,7 @@ import pytest
 from FreeCAD import Vector
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.continuity.cutoff import SPACING, Cutoff, step
+from ffds_workbench.brep.continuity.cutoff import SPACING, Cutoff, smooth_step
 from ffds_workbench.brep.continuity.edge_samples import inside
 from ffds_workbench.brep.continuity.local_field import local_displacements
 from ffds_workbench.brep.continuity.radial_basis import interpolate, wendland
@@ -198,7 +198,7 @@ def test_wendland_function_is_the_published_one():
 def test_step_is_smooth_from_0_to_1():
     """Ends exact; third derivative continuous: its steps on a grid are at most 384, the fourth, times the step."""
     t = np.linspace(0, 1, 2001)
-    values = step(t)
+    values = smooth_step(t)
     assert values[0] == 0
     assert values[-1] == 1
     assert (np.diff(values) >= -1e-15).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ffds_workbench.registration.joint.data.correspondence import Correspondence
-from ffds_workbench.registration.joint.data.cell_heights import medians, tukey_means
+from ffds_workbench.registration.joint.data.cell_heights import median_heights, tukey_mean_heights
 from ffds_workbench.registration.joint.data.scatter import Scatter, model_noise, patch_sums, sensor_noise, spread
 
 PER_SPAN, SPANS, POINTS = 6, 60, 8
@@ -65,7 +65,7 @@ def test_a_shape_held_off_the_scan_is_no_error_of_the_model():
     cell, height = scan(np.full(2, 1e-4), lambda u, v: 0.3 + 0 * u)
     shape = Correspondence(np.arange(len(cell)), cell, height, cell)
     start = Scatter(np.full(2, 1e-4), np.zeros(2), np.full(2, 0.1))
-    values = tukey_means(shape, start, FACE_OF_SPAN, PER_SPAN**2, (1e-6, 1e-3))
+    values = tukey_mean_heights(shape, start, FACE_OF_SPAN, PER_SPAN**2, (1e-6, 1e-3))
     assert (values.count == POINTS).all() and values.height == pytest.approx(0.3, abs=1e-3)
     assert values.scatter.model == pytest.approx(1e-3) and values.scatter.sensor == pytest.approx(1e-4, rel=0.1)
     # A patch of 9 cells is worth 1/(σ²/n + τ²), whatever its distance.
@@ -77,8 +77,8 @@ def test_outliers_do_not_count():
     cell, height = scan(sigma, outliers=0.05)
     found = Correspondence(np.arange(len(cell)), cell, height, cell)
     start = Scatter(sigma, np.zeros(2), np.full(2, 0.1))
-    values = tukey_means(found, start, FACE_OF_SPAN, PER_SPAN**2, (1e-6, 1e-6))
+    values = tukey_mean_heights(found, start, FACE_OF_SPAN, PER_SPAN**2, (1e-6, 1e-6))
     # Outliers in ±0.5 mm, of which Tukey's biweight at 0.47 mm keeps some, are in a third of the cells and move their
     # means by a few hundredths; the standard deviation without robust weights would be 0.067.
     assert values.scatter.sensor == pytest.approx(sigma, rel=0.2)
-    assert medians(found, start, FACE_OF_SPAN, PER_SPAN**2).height.std() < 2 * 0.02 / np.sqrt(0.64 * POINTS)
+    assert median_heights(found, start, FACE_OF_SPAN, PER_SPAN**2).height.std() < 2 * 0.02 / np.sqrt(0.64 * POINTS)

@@ -20,20 +20,20 @@ from ...registration.arrays import Array
 from ...registration.splines import SplineSurface
 from ..topology import edge_traces
 from ..workpiece import Workpiece
-from .cutoff import step
-from .edge_samples import EdgeSamples, along_edge, join, side_lengths
+from .cutoff import smooth_step
+from .edge_samples import EdgeSamples, along_edge, join_samples, side_lengths
 from .radial_basis import RadialField, interpolate
 
-_GENTLE = 10.0
+_FADE_FACTOR = 10.0
 """A correction fades over at least this multiple of itself …"""
-_SPREAD = 0.25
+_FADE_SHARE = 0.25
 """… and over this part of the face's size."""
-_MOST_CENTRES = 500
+_LARGEST_CENTRES = 500
 _SLIDING = 0.03
 """How much a face's displacement within itself counts beside that along its normal; decides where normals are alike."""
 AT_VERTICES = 1e-7
 """In the vertices faces meet to OCCT's own precision (mm): readers of STEP mend what is farther apart."""
-_EVEN = 1e-8
+_TEARING_GAP = 1e-8
 """Sides of a seam, or directions at a pole, that differ by more than this (mm) tear the face."""
 
 
@@ -88,24 +88,24 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
     for face in displacements:
         for edge in topology.face_edges[face]:
             finest[edge] = min(finest.get(edge, np.inf), spacing[face])
-    samples = join(along_edge(workpiece, edge, lambda points, s=step: np.full(len(points), s))
-                   for edge, step in sorted(finest.items()))
+    samples = join_samples(along_edge(workpiece, edge, lambda points, s=step: np.full(len(points), s))
+                           for edge, step in sorted(finest.items()))
     sides = {face: _side(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
     agreed = _along_edges(samples, sides)
     _close_at_vertices(workpiece, samples, sides, agreed)
     sizes = [np.linalg.norm(side_lengths(workpiece.faces[face])) for face in sides]
-    dispute = _spread_out(samples.points, _dispute(sides, agreed), _SPREAD * float(np.mean(sizes)))
+    dispute = _spread_out(samples.points, _disagreement(sides, agreed), _FADE_SHARE * float(np.mean(sizes)))
     return Rim(samples, agreed, dispute, sides)
 
 
-def _dispute(sides: Mapping[int, Side], agreed: Array) -> Array:
+def _disagreement(sides: Mapping[int, Side], agreed: Array) -> Array:
     """Largest distance in mm by which a face would have pulled the compromise elsewhere, (n,)."""
     matrix = np.zeros((len(agreed), 3, 3))
     for side in sides.values():
-        np.add.at(matrix, side.rows, _say(side.normals))
+        np.add.at(matrix, side.rows, _directional_weight(side.normals))
     dispute = np.zeros(len(agreed))
     for side in sides.values():
-        pull = np.einsum("nij,nj->ni", _say(side.normals), side.own - agreed[side.rows])
+        pull = np.einsum("nij,nj->ni", _directional_weight(side.normals), side.own - agreed[side.rows])
         distance = np.linalg.norm(np.linalg.solve(matrix[side.rows], pull[:, :, None])[:, :, 0], axis=1)
         np.maximum.at(dispute, side.rows, distance)
     return dispute
@@ -142,7 +142,7 @@ def _side(workpiece: Workpiece, face: int, displacement: SplineSurface, samples:
     mean = np.zeros((len(unique), 3))
     np.add.at(mean, inverse, values)
     mean /= count[:, None]
-    torn = np.concatenate(on_seam) | (np.linalg.norm(values - mean[inverse], axis=1) > _EVEN)
+    torn = np.concatenate(on_seam) | (np.linalg.norm(values - mean[inverse], axis=1) > _TEARING_GAP)
     surface = workpiece.faces[face].surface
     normals = np.zeros((len(unique), 3))
     np.add.at(normals, inverse, _unit(np.cross(surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv))))
@@ -169,14 +169,14 @@ def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int)
     place : (m,) the place that a face speaks for; every place has one or more
     own, normals : (m, 3) its displacement and its unit normal there
     """
-    say = _say(normals)
+    say = _directional_weight(normals)
     matrix, right = np.zeros((count, 3, 3)), np.zeros((count, 3))
     np.add.at(matrix, place, say)
     np.add.at(right, place, np.einsum("nij,nj->ni", say, own))
     return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
 
 
-def _say(normals: Array) -> Array:
+def _directional_weight(normals: Array) -> Array:
     """What weight a face's displacement has in each direction: nnᵀ + s, (n, 3, 3)."""
     return normals[:, :, None] * normals[:, None, :] + _SLIDING * np.eye(3)
 
@@ -210,8 +210,8 @@ def _close_at_vertices(workpiece: Workpiece, samples: EdgeSamples, sides: Mappin
         size = max(sizes[face] for face in workpiece.topology.edge_faces[edge] if face in sizes)
         along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(samples.points[rows], axis=0), axis=1)))
         for end, distance in ((rows[0], along), (rows[-1], along[-1] - along)):
-            fade = min(along[-1], max(_GENTLE * float(np.linalg.norm(offsets[end])), _SPREAD * size))
-            agreed[rows] += (1.0 - step(distance / fade))[:, None] * offsets[end]
+            fade = min(along[-1], max(_FADE_FACTOR * float(np.linalg.norm(offsets[end])), _FADE_SHARE * size))
+            agreed[rows] += (1.0 - smooth_step(distance / fade))[:, None] * offsets[end]
 
 
 def _ends(workpiece: Workpiece, samples: EdgeSamples) -> list[tuple[int, int]]:
@@ -246,5 +246,6 @@ def spread(rim: Rim, face: int, size: float, tolerance: float, part: float = 0.0
     tolerances = np.full(len(side.rows), max(tolerance, part * largest))
     if part == 0.0:
         tolerances[rim.samples.at_vertices[side.rows]] = AT_VERTICES
-    return interpolate(rim.samples.points[side.rows], correction, tolerances, max(_GENTLE * largest, _SPREAD * size),
-                       _MOST_CENTRES)
+    return interpolate(rim.samples.points[side.rows], correction, tolerances,
+                       max(_FADE_FACTOR * largest, _FADE_SHARE * size),
+                       _LARGEST_CENTRES)

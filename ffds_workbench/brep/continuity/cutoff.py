@@ -16,21 +16,21 @@ from ...registration.arrays import Array
 
 SPACING = 0.1
 """Largest distance of the samples along an edge, as a fraction of their reach."""
-_POWER = 8
-_ZERO, _ONE = 0.14, 1.05
+_SHARE_POWER = 8
+_ZERO_BELOW, _ONE_ABOVE = 0.14, 1.05
 """The factor is exactly 0 below, exactly 1 above these smooth distances. Between two samples at ``SPACING`` it is 0.06
 at most, without a ripple that counts from 0.14 on; at the reach from two straight edges it is 1.1, from six 0.96."""
 _HORIZON = 1.6
 """A sample's share fades to nothing at this multiple of its reach."""
-_BLOCK = 60_000
-_FEW = 400
+_BLOCK_VALUES = 60_000
+_DENSE_SAMPLES = 400
 """Up to so many samples all distances are cheaper than a search for the near ones."""
 
 
 _STEP_KNOT = 0.5 - np.sqrt(0.125)
 
 
-def step(t: Array) -> Array:
+def smooth_step(t: Array) -> Array:
     """From 0 at t ≤ 0 to 1 at t ≥ 1, with three continuous derivatives and the smallest possible fourth.
 
     The perfect spline of degree 4, its fourth derivative ±384 between Chebyshev knots: of all steps the one that a
@@ -88,12 +88,13 @@ class Cutoff:
             horizon = _HORIZON * scale.reach.max()
             low, high = scale.points.min(axis=0) - horizon, scale.points.max(axis=0) + horizon
             near = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
-            total[near] += scale._dense_sum(points[near]) if len(scale.points) <= _FEW else scale._sum(points[near])
+            few = len(scale.points) <= _DENSE_SAMPLES
+            total[near] += scale._dense_sum(points[near]) if few else scale._sum(points[near])
         with np.errstate(divide="ignore"):
-            return total ** (-1.0 / _POWER)
+            return total ** (-1.0 / _SHARE_POWER)
 
     def _dense_sum(self, points: Array) -> Array:
-        step = max(1, _BLOCK // len(self.points))
+        step = max(1, _BLOCK_VALUES // len(self.points))
         weights = self.lengths / self.reach
         sums = [_shares(cdist(points[start:start + step], self.points, "sqeuclidean"), self.reach) @ weights
                 for start in range(0, len(points), step)]
@@ -111,4 +112,4 @@ class Cutoff:
         """The factor at points: (m, 3) to (m,)."""
         if len(self.points) == 0:
             return np.ones(len(points))
-        return step((self.distance(points) - _ZERO) / (_ONE - _ZERO))
+        return smooth_step((self.distance(points) - _ZERO_BELOW) / (_ONE_ABOVE - _ZERO_BELOW))

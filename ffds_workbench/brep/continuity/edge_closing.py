@@ -22,8 +22,8 @@ from .radial_basis import RadialField
 
 FIDELITY = 1e-5
 """Largest distance in mm of a corrected field from the agreed displacement at the samples of the edges."""
-_SPACING = 0.01
-_FINEST = 0.25
+_SAMPLE_SPACING = 0.01
+_LEAST_SPACING = 0.25
 """Samples on an edge lie no farther apart than this share of the faces' size, nor closer than this in mm."""
 
 
@@ -50,7 +50,8 @@ def closing_displacements(workpiece: Workpiece,
         named stay as they are; edges and vertices that they touch are held still
     """
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in displacements}
-    rim = agree(workpiece, displacements, {face: max(_SPACING * size, _FINEST) for face, size in sizes.items()})
+    spacing = {face: max(_SAMPLE_SPACING * size, _LEAST_SPACING) for face, size in sizes.items()}
+    rim = agree(workpiece, displacements, spacing)
     rim = _held(workpiece, rim, displacements)
     result = {}
     for face, displacement in sorted(displacements.items()):

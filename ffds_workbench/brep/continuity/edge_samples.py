@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...registration.arrays import Array
-from ..topology import edge_points
+from ..topology import points_on_edge
 from ..workpiece import Workpiece, WorkpieceFace
 
-_FEWEST, _MOST = 5, 400
-_FACE_SAMPLES = 48
+_LEAST_SAMPLES, _LARGEST_SAMPLES = 5, 400
+_SAMPLES_PER_SIDE = 48
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class EdgeSamples:
         return EdgeSamples(self.edges[chosen], self.fractions[chosen], self.points[chosen], self.lengths[chosen])
 
 
-def join(parts: Iterable[EdgeSamples]) -> EdgeSamples:
+def join_samples(parts: Iterable[EdgeSamples]) -> EdgeSamples:
     """Several sets of samples as one."""
     parts = list(parts)
     if not parts:
@@ -65,21 +65,21 @@ def along_edge(workpiece: Workpiece, edge: int, spacing: Callable[[Array], Array
         taken, whatever it says
     """
     curve = workpiece.edges[edge]
-    fractions = np.linspace(0.0, 1.0, _FEWEST)
-    points = edge_points(curve, fractions)
+    fractions = np.linspace(0.0, 1.0, _LEAST_SAMPLES)
+    points = points_on_edge(curve, fractions)
     if curve.Degenerated:
         return EdgeSamples(np.array([edge]), np.zeros(1), points[:1], spacing(points[:1]))
     for _ in range(4):
         steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
         allowed = np.maximum(spacing(points), 1e-9)
         pieces = np.ceil(steps / np.minimum(allowed[:-1], allowed[1:])).clip(1, 16).astype(int)
-        if pieces.sum() > _MOST:
-            pieces = np.maximum(pieces * _MOST // pieces.sum(), 1)
+        if pieces.sum() > _LARGEST_SAMPLES:
+            pieces = np.maximum(pieces * _LARGEST_SAMPLES // pieces.sum(), 1)
         if pieces.max() == 1:
             break
         fractions = np.append(np.concatenate([a + (b - a) * np.arange(k) / k for a, b, k in
                                               zip(fractions[:-1], fractions[1:], pieces, strict=True)]), 1.0)
-        points = edge_points(curve, fractions)
+        points = points_on_edge(curve, fractions)
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     lengths = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
     return EdgeSamples(np.full(len(points), edge), fractions, points, lengths)
@@ -117,7 +117,7 @@ class FaceSamples:
 def on_face(face: WorkpieceFace, spans: tuple[int, int]) -> FaceSamples:
     """Samples of a face at about 1/48 of its size, and among them a grid of about two to each of ``spans``."""
     lengths = np.array(side_lengths(face))
-    counts = np.ceil(_FACE_SAMPLES * lengths / np.linalg.norm(lengths)).clip(4, _FACE_SAMPLES).astype(int)
+    counts = np.ceil(_SAMPLES_PER_SIDE * lengths / np.linalg.norm(lengths)).clip(4, _SAMPLES_PER_SIDE).astype(int)
     box = face.box
     u, v = _middles(box.u0, box.u1, counts[0]), _middles(box.v0, box.v1, counts[1])
     few_u, few_v = (_few(len(x), 2 * n) for x, n in zip((u, v), spans, strict=True))

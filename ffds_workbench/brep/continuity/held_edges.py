@@ -11,12 +11,12 @@ from scipy.spatial import cKDTree
 from ...registration.arrays import Array
 from ..workpiece import Workpiece
 from .cutoff import SPACING, Cutoff
-from .edge_samples import EdgeSamples, along_edge, join
+from .edge_samples import EdgeSamples, along_edge, join_samples
 from .radial_basis import RadialField
 
-_ROOM = 5.0
+_ROOM_FACTOR = 5.0
 """An edge may stay if it is farther from the edited faces than so many times the displacement there."""
-_TAPER = 0.05, 0.5
+_TAPER_SHARES = 0.05, 0.5
 """Where a frozen face touches an edited one, the displacement fades over five times itself, but between these parts of
 the edited face's size."""
 _TOLERANCE_ROOM = 30.0
@@ -38,7 +38,7 @@ class Held:
 
 
 @dataclass(frozen=True)
-class _Candidate:
+class _EdgeCandidate:
     """An edge, or a vertex alone, that may have to stay: samples, and the reach of the factor there in mm."""
 
     samples: EdgeSamples
@@ -57,9 +57,9 @@ class _Surroundings:
         touching = topology.faces_around(edited) & frozen
         self.touched_edges = {edge for face in touching for edge in topology.face_edges[face]}
         self.touched_vertices = {vertex for face in touching for vertex in topology.face_vertices[face]}
-        self._edges: dict[int, _Candidate] = {}
+        self._edges: dict[int, _EdgeCandidate] = {}
 
-    def edge(self, edge: int) -> _Candidate:
+    def edge(self, edge: int) -> _EdgeCandidate:
         if edge not in self._edges:
             touched = edge in self.touched_edges
             samples = along_edge(self.workpiece, edge, lambda points: SPACING * self._reach(points, touched))
@@ -68,7 +68,7 @@ class _Surroundings:
             self._edges[edge] = self._candidate(samples, touched, np.maximum(resolved, _TOLERANCE_ROOM * tolerance))
         return self._edges[edge]
 
-    def vertex(self, vertex: int) -> _Candidate:
+    def vertex(self, vertex: int) -> _EdgeCandidate:
         shape = self.workpiece.shape.Vertexes[vertex]
         points = np.array([tuple(shape.Point)])
         touched = vertex in self.touched_vertices
@@ -76,18 +76,20 @@ class _Surroundings:
         samples = EdgeSamples(np.array([-1]), np.zeros(1), points, reach)
         return self._candidate(samples, touched, np.full(1, max(_TOLERANCE_ROOM * shape.Tolerance, 1e-6)))
 
-    def _candidate(self, samples: EdgeSamples, touched: bool, least: Array) -> _Candidate:
+    def _candidate(self, samples: EdgeSamples, touched: bool, least: Array) -> _EdgeCandidate:
         displacement = np.linalg.norm(self.smooth(samples.points), axis=1)
         distance = self.tree.query(samples.points)[0]
         reach = np.maximum(self._reach(samples.points, touched), least)
-        return _Candidate(samples, reach, bool((distance < _ROOM * displacement).any()), not displacement.any())
+        return _EdgeCandidate(samples, reach, bool((distance < _ROOM_FACTOR * displacement).any()),
+                              not displacement.any())
 
     def _reach(self, points: Array, touched: bool) -> Array:
         distance = self.tree.query(points)[0]
         if not touched:
             return distance
         displacement = np.linalg.norm(self.smooth(points), axis=1)
-        return np.maximum(distance, np.clip(_ROOM * displacement, _TAPER[0] * self.size, _TAPER[1] * self.size))
+        least, largest = _TAPER_SHARES
+        return np.maximum(distance, np.clip(_ROOM_FACTOR * displacement, least * self.size, largest * self.size))
 
 
 def held_edges(workpiece: Workpiece, edited: frozenset[int], frozen: frozenset[int], smooth: RadialField,
@@ -117,7 +119,7 @@ def held_edges(workpiece: Workpiece, edited: frozenset[int], frozen: frozenset[i
             break
         moving |= crowded - frozen
     held = [candidate for candidate in (*edge_candidates.values(), *vertex_candidates.values()) if not candidate.still]
-    samples = join(candidate.samples for candidate in held)
+    samples = join_samples(candidate.samples for candidate in held)
     reach = np.concatenate([candidate.reach for candidate in held]) if held else np.empty(0)
     return Held(tuple(sorted(moving - edited)), Cutoff(samples.points, samples.lengths, reach))
 
@@ -133,7 +135,7 @@ def _border(workpiece: Workpiece, moving: set[int]) -> tuple[set[int], set[int]]
     return edges, vertices
 
 
-def _owners(incidence: tuple[tuple[int, ...], ...], candidates: dict[int, _Candidate]) -> set[int]:
+def _owners(incidence: tuple[tuple[int, ...], ...], candidates: dict[int, _EdgeCandidate]) -> set[int]:
     """Faces at the edges or vertices that are too near to stay."""
     crowded: Iterable[int] = (number for number, candidate in candidates.items() if candidate.crowded)
     return {face for number in crowded for face in incidence[number]}

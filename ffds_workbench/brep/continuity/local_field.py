@@ -30,22 +30,22 @@ from .edge_samples import FaceSamples, on_face, side_lengths
 from .held_edges import held_edges
 from .radial_basis import RadialField, interpolate
 
-_SAMPLE = 0.004
+_SAMPLE_SPACING = 0.004
 """Distance of samples on the edges of an edited face over the face's size."""
 _FIDELITY = 1e-5
 """Largest distance in mm of the field from the registered displacement along the edges …"""
-_DISPUTE = 0.3
+_DISPUTED_SHARE = 0.3
 """… or this part of what edited faces differ by there, so that the field runs smoothly through what they dispute."""
 _FIDELITY_INSIDE = 0.02
 """The same inside an edited face, over the largest displacement: there it only serves what lies behind the face."""
-_ROUGHLY = 0.2
+_INSIDE_CORRECTION_SHARE = 0.2
 """There, corrections of the edited faces count as far as this part of them."""
-_CLOSE = 2e-5
+_SAME_AS_FIELD = 2e-5
 """What counts as equal to the field, in mm. An edited face gets a correction where it is not, …"""
-_RIM = 0.08, 5.0
+_RIM_WIDTHS = 0.08, 5.0
 """… and where that fails, passes into it in a rim that is so much of the face's size wide, and at least so many times
 the distance."""
-_SUPPORT = 0.6, 5.0
+_SUPPORT_SIZES = 0.6, 5.0
 """Support of the field: so much of the largest edited face's size plus so many times the largest displacement."""
 _LINES_PER_SUPPORT = 4.0
 
@@ -145,9 +145,9 @@ def _in_one_body(workpiece: Workpiece, face_displacements: Mapping[int, SplineSu
     """One field for edited faces of the same body."""
     samples = {face: on_face(workpiece.faces[face], _spans(d)) for face, d in face_displacements.items()}
     sizes = {face: float(np.linalg.norm(side_lengths(workpiece.faces[face]))) for face in face_displacements}
-    rim = agree(workpiece, face_displacements, {face: _SAMPLE * size for face, size in sizes.items()})
+    rim = agree(workpiece, face_displacements, {face: _SAMPLE_SPACING * size for face, size in sizes.items()})
     largest = max(_largest(displacement) for displacement in face_displacements.values())
-    support = _SUPPORT[0] * max(sizes.values()) + _SUPPORT[1] * largest
+    support = _SUPPORT_SIZES[0] * max(sizes.values()) + _SUPPORT_SIZES[1] * largest
     smooth = _smooth_field(face_displacements, samples, sizes, rim, largest, support)
     rim = replace(rim, displacement=smooth(rim.samples.points))
     edited_points = np.concatenate([rim.samples.points, *(s.points for s in samples.values())])
@@ -156,7 +156,7 @@ def _in_one_body(workpiece: Workpiece, face_displacements: Mapping[int, SplineSu
     field = LocalField(smooth, held.cutoff)
     result = {}
     for face, displacement in face_displacements.items():
-        correction = spread(rim, face, sizes[face], _CLOSE)
+        correction = spread(rim, face, sizes[face], _SAME_AS_FIELD)
         edited = EditedFace(displacement, correction, _blend(rim, face, correction, sizes[face]), field)
         result[face] = FaceDisplacement(edited, *_lines_of_edit(workpiece.faces[face], displacement))
     for face in held.adapting:
@@ -193,12 +193,12 @@ def _smooth_field(displacements: Mapping[int, SplineSurface], samples: Mapping[i
     for face, displacement in displacements.items():
         coarse = samples[face].coarse
         inner, value = samples[face].points[coarse], displacement(samples[face].uv[coarse])
-        roughly = spread(rim, face, sizes[face], _FIDELITY_INSIDE * largest, _ROUGHLY)
+        roughly = spread(rim, face, sizes[face], _FIDELITY_INSIDE * largest, _INSIDE_CORRECTION_SHARE)
         points.append(inner)
         values.append(value if roughly is None else value + roughly(inner))
     tolerances = np.full(sum(map(len, points)), _FIDELITY_INSIDE * largest)
     edges = tolerances[:len(rim.dispute)]
-    edges[:] = np.maximum(_FIDELITY, _DISPUTE * rim.dispute)
+    edges[:] = np.maximum(_FIDELITY, _DISPUTED_SHARE * rim.dispute)
     disputed = bool(rim.dispute.max() > _FIDELITY)
     if not disputed:
         edges[rim.samples.at_vertices] = AT_VERTICES
@@ -212,12 +212,12 @@ def _blend(rim: Rim, face: int, correction: RadialField | None, size: float) -> 
     points = rim.samples.points[side.rows]
     own = side.own if correction is None else side.own + correction(points)
     distance = np.linalg.norm(rim.displacement[side.rows] - own, axis=1)
-    far = side.torn | (distance > 2.0 * _CLOSE)
+    far = side.torn | (distance > 2.0 * _SAME_AS_FIELD)
     if not far.any():
         return None
     edges = rim.samples.edges[side.rows]
     samples = rim.samples.take(side.rows[np.isin(edges, edges[far])])
-    reach = max(_RIM[0] * size, _RIM[1] * float(distance.max()))
+    reach = max(_RIM_WIDTHS[0] * size, _RIM_WIDTHS[1] * float(distance.max()))
     return Cutoff(samples.points, samples.lengths, np.maximum(reach, samples.lengths / SPACING))
 
 

@@ -17,10 +17,10 @@ from ...registration.arrays import Array
 
 _FIRST_CENTRES = 40
 _RIDGE = 1e-13
-_MISFIT = 0.5
+_TARGET_MISFIT = 0.5
 _LOG_RIDGES = -6.0, 6.0
 _BISECTIONS = 6
-_BLOCK = 60_000
+_BLOCK_VALUES = 60_000
 """Kernel values at a time: small enough to stay in the processor's cache."""
 
 
@@ -64,7 +64,7 @@ class RadialField:
             return result
         low, high = self.centres.min(axis=0) - self.support, self.centres.max(axis=0) + self.support
         near = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
-        step = max(1, _BLOCK // len(self.centres))
+        step = max(1, _BLOCK_VALUES // len(self.centres))
         for block in (near[start:start + step] for start in range(0, len(near), step)):
             result[block] = wendland(cdist(points[block], self.centres) / self.support) @ self.coefficients
         return result
@@ -106,7 +106,8 @@ def interpolate(points: Array, values: Array, tolerances: Array, support: float,
 
 
 def _smoothest(kernel: Array, chosen: NDArray[np.intp], values: Array, tolerances: Array) -> Array:
-    """Coefficients of the smoothing field whose misfit, over the tolerances, has a mean square of about `_MISFIT`².
+    """Coefficients of the smoothing field whose misfit, over the tolerances, has a mean square of about
+    `_TARGET_MISFIT`².
 
     Ridge λ · tolerance² on the diagonal, λ by bisection of its logarithm (Morozov's discrepancy principle).
     """
@@ -116,7 +117,7 @@ def _smoothest(kernel: Array, chosen: NDArray[np.intp], values: Array, tolerance
         matrix = kernel[:, chosen] + np.diag(10.0**middle * tolerances[chosen] ** 2 + _RIDGE)
         coefficients = cho_solve(cho_factor(matrix, lower=True), values[chosen])
         misfit = np.linalg.norm(kernel.T @ coefficients - values, axis=1) / tolerances
-        low, high = (low, middle) if np.mean(misfit**2) > _MISFIT**2 else (middle, high)
+        low, high = (low, middle) if np.mean(misfit**2) > _TARGET_MISFIT**2 else (middle, high)
     return coefficients
 
 

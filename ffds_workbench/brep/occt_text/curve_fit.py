@@ -11,8 +11,8 @@ from ...registration.splines import DEGREE
 from ..surface_fit import direction
 from .curves import Spline
 
-_MOST_KNOTS = 3000
-_ROUNDS = 10
+_LARGEST_KNOT_COUNT = 3000
+_REFINEMENT_ROUNDS = 10
 
 
 def fit_curve(f: Callable[[Array], Array], first: float, last: float, breaks: Array, tolerance: float) -> Spline:
@@ -25,13 +25,13 @@ def fit_curve(f: Callable[[Array], Array], first: float, last: float, breaks: Ar
     tolerance : largest distance from ``f`` at the same parameter, checked at three points in every span
     """
     side = direction(first, last, breaks, closed=False)
-    for _ in range(_ROUNDS):
+    for _ in range(_REFINEMENT_ROUNDS):
         sites, checks = side.sites, side.checks
         values = f(np.concatenate([sites, checks.ravel()]))
         curve = Spline(DEGREE, side.knots, side.solve(values[: len(sites)]), rational=False, periodic=False)
         off = np.linalg.norm(values[len(sites) :] - curve(checks.ravel()), axis=1)
         errors = off.reshape(checks.shape).max(axis=1)
-        finer = side.refined(errors, tolerance, _MOST_KNOTS)
+        finer = side.refined(errors, tolerance, _LARGEST_KNOT_COUNT)
         if errors.max() <= tolerance or finer is side:
             break
         side = finer

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import RefusedError
 from ...registration.arrays import Array
-from .records import BrepText, Reference
+from .records import BrepText, ShapeReference
 
 Chain = tuple[tuple[int, int], ...]
 """A location as OCCT compares it: elementary locations (index from 1) and their powers, outermost first."""
@@ -130,10 +130,10 @@ def walk(brep: BrepText, locations: Locations) -> Instances:
     lists = {"Fa": result.faces, "Ed": result.edges, "Ve": result.vertices}
     known: dict[Instance, int] = {}
 
-    def placed(reference: Reference, outer: Chain) -> Instance:
+    def placed(reference: ShapeReference, outer: Chain) -> Instance:
         return Instance(reference.shape, product(outer, locations.chain(reference.location)))
 
-    def visit(reference: Reference, outer: Chain) -> None:
+    def visit(reference: ShapeReference, outer: Chain) -> None:
         instance = placed(reference, outer)
         if instance in known:
             return

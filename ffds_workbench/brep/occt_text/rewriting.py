@@ -16,7 +16,7 @@ from ...registration.splines import DEGREE, SplineSurface
 from .curves import Spline, knots_text, mapped, numbers_text, print_curve
 from .instances import Chain, Instance, Instances, Locations, product
 from .pcurves import UsedEdge
-from .records import BrepText, Curve3d, CurveOnSurface, EdgeCurves, FaceSurface, Reference, TShape, VertexPoint
+from .records import BrepText, Curve3d, CurveOnSurface, EdgeCurves, FaceSurface, ShapeReference, TShape, VertexPoint
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class Rewriter:
         self._new.root = replace(root, shape=position)
         return self._new
 
-    def _write(self, reference: Reference, outer: Chain) -> int:
+    def _write(self, reference: ShapeReference, outer: Chain) -> int:
         """Position of the referred shape in the new text, written if it is not there yet."""
         place = product(outer, self._locations.chain(reference.location))
         instance = Instance(reference.shape, place)

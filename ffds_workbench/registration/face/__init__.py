@@ -10,7 +10,7 @@ from .control_lattice import ControlLattice, displacement_lattice
 from .face_result import FaceRegistration
 from .far_side import far_side
 from .ffd import register_ffd
-from .ffds import equidistant_grid, register_ffds, solve
+from .ffds import equidistant_grid, register_ffds, solve_lattice
 from .neighbours import nearest_neighbours
 from .observed_faces import observed_faces
 from .robust import register_robust
@@ -19,4 +19,4 @@ from .scan_coverage import covered_share
 
 __all__ = ["ControlLattice", "FaceRegistration", "RobustSettings", "covered_share", "displacement_lattice",
            "equidistant_grid", "far_side", "nearest_neighbours", "observed_faces", "register_ffd", "register_ffds",
-           "register_robust", "solve"]
+           "register_robust", "solve_lattice"]

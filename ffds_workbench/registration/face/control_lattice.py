@@ -57,11 +57,11 @@ class ControlLattice:
 
     def basis_u(self, u: Array, derivative: int = 0) -> Array:
         """Basis functions of the rows at u, (len(u), rows); repeated rows added up."""
-        return folded(basis_matrix(self.knots_u, u, derivative=derivative), self.fold_u)
+        return sum_repeated(basis_matrix(self.knots_u, u, derivative=derivative), self.fold_u)
 
     def basis_v(self, v: Array, derivative: int = 0) -> Array:
         """Basis functions of the columns at v, (len(v), columns); repeated columns added up."""
-        return folded(basis_matrix(self.knots_v, v, derivative=derivative), self.fold_v)
+        return sum_repeated(basis_matrix(self.knots_v, v, derivative=derivative), self.fold_v)
 
     def field(self, free_points: Array) -> SplineSurface:
         """The displacement whose free control points are (free, 3), in mm."""
@@ -115,7 +115,7 @@ def _direction(start: float, end: float, count: int, periodic: bool, closed: boo
     return clamped_knots(start, end, count), fold
 
 
-def folded(basis: Array, fold: Index) -> Array:
+def sum_repeated(basis: Array, fold: Index) -> Array:
     """Columns of repeated control points added up: (n, stored) to (n, free)."""
     if len(fold) == fold.max() + 1:
         return basis

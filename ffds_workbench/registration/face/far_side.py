@@ -12,12 +12,12 @@ from ..footpoints import surface_coordinates
 from ..uv_raster import dot, make_raster
 from .face_result import FaceRegistration
 
-_CELLS = 256
-_TURNED = -0.7
+_RASTER_CELLS = 256
+_OPPOSITE_COSINE = -0.7
 """Cosine of the outward normals from which two faces are the sides of one sheet, or of one slot."""
-_COVERED = 0.5
+_COVERED_SHARE = 0.5
 """Share of the observed part of the face that has to lie on the other one."""
-_LEAST = 3.0
+_LEAST_MOVEMENT_IN_NOISE = 3.0
 """Nothing is suspected where the face moved by less than this multiple of the noise."""
 
 
@@ -36,20 +36,20 @@ def far_side(face: FaceGeometry, registration: FaceRegistration, others: Iterabl
     -------
     Name, and the ratio of both root mean square distances; ("", 0.0) if there is no such face
     """
-    raster = make_raster(face, _CELLS)
+    raster = make_raster(face, _RASTER_CELLS)
     inside = np.flatnonzero(raster.inside)
     cells = np.stack(np.unravel_index(inside, raster.shape), axis=1) + 0.5
     displacement = registration.displacement(raster.corner + cells * raster.step)
     moved = np.linalg.norm(displacement, axis=1)
     best = ("", 0.0)
-    if not len(moved) or _rms(moved) < _LEAST * registration.noise:
+    if not len(moved) or _rms(moved) < _LEAST_MOVEMENT_IN_NOISE * registration.noise:
         return best
     points, normal = raster.position[inside] + displacement, raster.normal[inside]
     for other in others:
-        there = make_raster(other, _CELLS)
+        there = make_raster(other, _RASTER_CELLS)
         found = surface_coordinates(there, points, float(moved.max()), 0.0)
-        found = found.part(np.flatnonzero(dot(there.normal[found.in_cell[0]], normal[found.index]) < _TURNED))
-        if len(found.x) >= max(1.0, _COVERED * registration.coverage * len(points)):
+        found = found.part(np.flatnonzero(dot(there.normal[found.in_cell[0]], normal[found.index]) < _OPPOSITE_COSINE))
+        if len(found.x) >= max(1.0, _COVERED_SHARE * registration.coverage * len(points)):
             best = max(best, (other.name, _rms(moved[found.index]) / max(_rms(found.height), 1e-9)), key=lambda b: b[1])
     return best
 

@@ -14,18 +14,19 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
+from ..robust_weights import robust_sigma
 from ..splines import SplineSurface, basis_matrix, basis_rows, clamped_knots, greville
 from . import ffds
 from .control_lattice import displacement_lattice
 from .face_result import FaceRegistration
 from .neighbours import nearest_neighbours
 
-_FLAT = 1e-9
+_FLAT_SPREAD = 1e-9
 _THINNEST = 0.1
 """Smallest side of the enclosing box, as a share of the largest: a flat face has no third extent of its own."""
 _ON_SURFACE = 1e-3
 """Largest distance in mm between the deformation in space and the same told in the face's (u, v)."""
-_FINEST = 64
+_FINEST_LATTICE = 64
 _FINEST_AT_POLES = 20
 
 
@@ -119,10 +120,10 @@ def register_ffd(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (10
     points = source.points[on_face]
     distance, nearest = nearest_neighbours(scan, points)                      # step 3: closest neighbour in T
     coverage = ffds.check_coverage(face, distance, reach)
-    moved = solve(volume, source, scan[nearest] - points)                     # step 4: ΔP = B⁺ Δp (Eq. 4)
+    moved = solve_volume(volume, source, scan[nearest] - points)                     # step 4: ΔP = B⁺ Δp (Eq. 4)
     displacement = on_surface(volume, moved, face.surface, lattice)           # step 5: L(p) on the face (Eq. 1)
     residual = scan[nearest] - points - displacement.on_grid(u, v)[on_face]
-    noise = 1.4826 * float(np.median(np.abs(ffds.along_normal(face, u, v, on_face, residual))))
+    noise = robust_sigma(ffds.along_normal(face, u, v, on_face, residual))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 
@@ -132,7 +133,7 @@ def enclose(face: FaceGeometry, count: tuple[int, int, int]) -> VolumeLattice:
     points = face.surface.on_grid(np.linspace(u0, u1, 33), np.linspace(v0, v1, 33)).reshape(-1, 3)
     middle = points.mean(axis=0)
     _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
-    if spread[2] < _FLAT * spread[0]:      # along u: a grid on the face is then a grid in the lattice
+    if spread[2] < _FLAT_SPREAD * spread[0]:      # along u: a grid on the face is then a grid in the lattice
         along = points[-1] - points[32]
         axes[0] = along / np.linalg.norm(along)
     axes[1] -= (axes[1] @ axes[0]) * axes[0]
@@ -146,22 +147,22 @@ def enclose(face: FaceGeometry, count: tuple[int, int, int]) -> VolumeLattice:
     return VolumeLattice(middle + (0.5 * (low + high - size)) @ axes, axes, size, count)
 
 
-def basis(lattice: VolumeLattice, points: Array) -> Array:
+def volume_basis(lattice: VolumeLattice, points: Array) -> Array:
     """B of Eq. 3 for the lattice in space, dense: (n, N_i·N_j·N_k)."""
     stu = lattice.parameters(points)
     s, t, u = (basis_matrix(knots, x) for knots, x in zip(lattice.knots, stu.T, strict=True))
     return np.einsum("ni,nj,nk->nijk", s, t, u, optimize=True).reshape(len(points), -1)
 
 
-def solve_dense(lattice: VolumeLattice, points: Array, displacements: Array) -> Array:
+def solve_volume_dense(lattice: VolumeLattice, points: Array, displacements: Array) -> Array:
     """ΔP = B⁺ Δp by the dense pseudo-inverse, as published; (n, 3) twice to (N_i, N_j, N_k, 3).
 
     There are more control points than a face determines: of all solutions the pseudo-inverse takes the smallest.
     """
-    return (ffds.pseudo_inverse(basis(lattice, points)) @ displacements).reshape(*lattice.count, 3)
+    return (ffds.pseudo_inverse(volume_basis(lattice, points)) @ displacements).reshape(*lattice.count, 3)
 
 
-def solve(lattice: VolumeLattice, source: FaceSource, displacements: Array) -> Array:
+def solve_volume(lattice: VolumeLattice, source: FaceSource, displacements: Array) -> Array:
     """The same ΔP = B⁺ Δp, the fast way.
 
     Parameters
@@ -198,7 +199,7 @@ def _grid_factors(lattice: VolumeLattice, source: FaceSource) -> tuple[Array, Ar
     stu = lattice.parameters(source.points.reshape(-1, 3)).reshape(source.points.shape)
     s, t, u = stu[:, 0, 0], stu[0, :, 1], stu[0, 0, 2]
     gap = np.abs(stu - np.stack(np.broadcast_arrays(s[:, None], t[None, :], u), axis=-1)).max()
-    return (s, t, np.array([u])) if gap < _FLAT else None
+    return (s, t, np.array([u])) if gap < _FLAT_SPREAD else None
 
 
 def on_surface(lattice: VolumeLattice, control_displacements: Array, surface: SplineSurface,
@@ -215,9 +216,9 @@ def on_surface(lattice: VolumeLattice, control_displacements: Array, surface: Sp
         points = surface.on_grid(u, v).reshape(-1, 3)
         values = lattice.displacement(control_displacements, points)
         everywhere = np.ones((len(u), len(v)), dtype=bool)
-        displacement = control.field(ffds.solve(control, u, v, everywhere, values))
+        displacement = control.field(ffds.solve_lattice(control, u, v, everywhere, values))
         error = np.linalg.norm(displacement.on_grid(u, v).reshape(-1, 3) - values, axis=1).max()
-        finest = _FINEST if control.is_tensor else _FINEST_AT_POLES
+        finest = _FINEST_LATTICE if control.is_tensor else _FINEST_AT_POLES
         if error <= _ON_SURFACE or max(size) >= finest:
             return displacement
         size = (min(finest, round(1.5 * size[0])), min(finest, round(1.5 * size[1])))

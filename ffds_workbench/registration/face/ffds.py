@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...errors import RefusedError
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
+from ..robust_weights import robust_sigma
 from ..splines import DEGREE, tensor_product
 from ..trims import inside_trims
 from .control_lattice import ControlLattice, displacement_lattice
@@ -23,8 +24,8 @@ REACH = 10.0
 
 SMALLEST_SINGULAR_VALUE = 1e-6
 _LEAST_COVERAGE = 0.1
-_FINEST = 10
-_OVERSHOOT, _FIRM = 4.0, 2.5
+_FINEST_LATTICE = 10
+_LARGEST_OVERSHOOT, _FIRM_OVERSHOOT = 4.0, 2.5
 """Ratio of control point to source point displacement above which a lattice counts as undetermined, and the one up to
 which it is taken unasked; a cubic through a full grid stays below 2, or a little above where most of it is noise."""
 
@@ -34,7 +35,8 @@ class UndeterminedError(RefusedError):
 
 
 def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = (10, 10),
-                  source_points: int = 400, reach: float = REACH, overshoot: float = _OVERSHOOT) -> FaceRegistration:
+                  source_points: int = 400, reach: float = REACH,
+                  overshoot: float = _LARGEST_OVERSHOOT) -> FaceRegistration:
     """Deform a face to a scan: the paper's steps 1 to 5.
 
     Parameters
@@ -54,18 +56,18 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
         The source points do not determine the control points of the lattice, or the scan does not lie on the face.
     """
     if lattice is None:
-        return _finest(face, scan, source_points, reach)
+        return _register_finest(face, scan, source_points, reach)
     return _register(face, scan, lattice, source_points, reach, overshoot)
 
 
-def _finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
+def _register_finest(face: FaceGeometry, scan: Array, source_points: int, reach: float) -> FaceRegistration:
     """The registration with the finest lattice that the source points determine firmly."""
-    for count in range(_FINEST, DEGREE + 1, -1):
+    for count in range(_FINEST_LATTICE, DEGREE + 1, -1):
         try:
-            return _register(face, scan, (count, count), source_points, reach, _FIRM)
+            return _register(face, scan, (count, count), source_points, reach, _FIRM_OVERSHOOT)
         except UndeterminedError:
             continue
-    return _register(face, scan, (DEGREE + 1, DEGREE + 1), source_points, reach, _OVERSHOOT)
+    return _register(face, scan, (DEGREE + 1, DEGREE + 1), source_points, reach, _LARGEST_OVERSHOOT)
 
 
 def _register(face: FaceGeometry, scan: Array, lattice: tuple[int, int], source_points: int, reach: float,
@@ -78,15 +80,15 @@ def _register(face: FaceGeometry, scan: Array, lattice: tuple[int, int], source_
     distance, nearest = nearest_neighbours(scan, source)                      # step 3: closest neighbour in T
     coverage = check_coverage(face, distance, reach)
     displacement_points = scan[nearest] - source                              # Δp
-    control_points = solve(control, u, v, on_face, displacement_points)       # step 4: ΔP̃ = B⁺ Δp (Eq. 4)
+    control_points = solve_lattice(control, u, v, on_face, displacement_points)       # step 4: ΔP̃ = B⁺ Δp (Eq. 4)
     _check_determined(face, control, control_points, displacement_points, overshoot)
     displacement = control.field(control_points)                              # step 5: L̃(p) = Σ N N (P̃ + ΔP̃) (Eq. 2)
     residual = scan[nearest] - source - displacement.on_grid(u, v)[on_face]
-    noise = 1.4826 * float(np.median(np.abs(along_normal(face, u, v, on_face, residual))))
+    noise = robust_sigma(along_normal(face, u, v, on_face, residual))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 
-def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_], values: Array) -> Array:
+def solve_lattice(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_], values: Array) -> Array:
     """Free control points ΔP̃ = B⁺ Δp that move the source points by Δp in the least-squares sense (Eq. 3 and 4).
 
     Parameters
@@ -107,10 +109,10 @@ def solve(control: ControlLattice, u: Array, v: Array, on_face: NDArray[np.bool_
         grid = values.reshape(len(u), len(v), -1)
         points = tensor_product(pseudo_inverse(control.basis_u(u)), pseudo_inverse(control.basis_v(v)), grid)
         return points.reshape(control.free, -1)
-    return pseudo_inverse(basis(control, u, v)[on_face.ravel()]) @ values
+    return pseudo_inverse(lattice_basis(control, u, v)[on_face.ravel()]) @ values
 
 
-def basis(control: ControlLattice, u: Array, v: Array) -> Array:
+def lattice_basis(control: ControlLattice, u: Array, v: Array) -> Array:
     """B of Eq. 3 on the grid u × v: (len(u)·len(v), control.free)."""
     full = np.kron(control.basis_u(u), control.basis_v(v))
     if control.is_tensor:

@@ -18,19 +18,19 @@ from ..arrays import Array
 
 Index = NDArray[np.intp]
 
-_BLOCK = 1 << 17
+_BLOCK_POINTS = 1 << 17
 _CELLS_PER_ROOT = 8.0
 _MOST_CELLS = 65535
 _FIRST_LOOK = 12
 _MOST_PAIRS = 130_000
-_SAMPLE = 128
+_SAMPLE_SIZE = 128
 _CHUNK = 32768
 _SLACK = 1e-9
 """Relative slack of distance bounds, far above rounding: a cell kept in vain costs time, one dropped costs truth."""
 
 
 @dataclass(frozen=True)
-class _Cells:
+class _Bins:
     """Occupied cells: the boxes of their points, and the points cell by cell.
 
     Attributes
@@ -63,8 +63,8 @@ def nearest_neighbours(scan: Array, queries: Array) -> tuple[Array, Index]:
     indices : (q,) into the scan; among equally near points the first one
     """
     squared, index = _nearest_of_sample(scan, queries)
-    for first in range(0, len(scan), _BLOCK):
-        columns, rows = _near_queries(scan[first : first + _BLOCK].T.copy(), queries, squared)
+    for first in range(0, len(scan), _BLOCK_POINTS):
+        columns, rows = _near_queries(scan[first : first + _BLOCK_POINTS].T.copy(), queries, squared)
         if not len(rows):
             continue
         query, found, row = _search(_bin(columns), queries, squared)
@@ -76,7 +76,7 @@ def nearest_neighbours(scan: Array, queries: Array) -> tuple[Array, Index]:
 
 def _nearest_of_sample(scan: Array, queries: Array) -> tuple[Array, Index]:
     """Squared distance and scan index of the nearest of a few scan points spread over the scan: upper bounds."""
-    step = max(1, len(scan) // _SAMPLE)
+    step = max(1, len(scan) // _SAMPLE_SIZE)
     squared = sum(((queries[:, a, None] - scan[::step, a]) ** 2 for a in range(3)), start=np.zeros((1, 1)))
     index = squared.argmin(axis=1)
     return squared[np.arange(len(queries)), index], index * step
@@ -94,7 +94,7 @@ def _near_queries(columns: Array, queries: Array, squared: Array) -> tuple[Array
     return columns if len(chosen) == len(inside) else columns.take(chosen, axis=1), chosen
 
 
-def _bin(columns: Array) -> _Cells:
+def _bin(columns: Array) -> _Bins:
     """Sort points into cubic cells, in place; about 8 √n cells are occupied where the points lie on a surface."""
     low = columns.min(axis=1)
     extent = columns.max(axis=1) - low
@@ -115,7 +115,7 @@ def _bin(columns: Array) -> _Cells:
     for x in columns:
         x[:] = x.take(order)
     lowest, highest = np.minimum.reduceat(columns, start, axis=1), np.maximum.reduceat(columns, start, axis=1)
-    return _Cells(0.5 * (lowest + highest).T, 0.5 * (highest - lowest).T, start, count, order, columns)
+    return _Bins(0.5 * (lowest + highest).T, 0.5 * (highest - lowest).T, start, count, order, columns)
 
 
 def _keys(columns: Array, low: Array, edge: float, size: Index) -> NDArray[np.uint16]:
@@ -128,7 +128,7 @@ def _keys(columns: Array, low: Array, edge: float, size: Index) -> NDArray[np.ui
     return key
 
 
-def _search(cells: _Cells, queries: Array, squared: Array) -> tuple[Index, Array, Index]:
+def _search(cells: _Bins, queries: Array, squared: Array) -> tuple[Index, Array, Index]:
     """Points at most as far as the nearest known: the queries that have one, its squared distance and its number.
 
     ``squared`` : (q,) squared distances of the nearest points known. A first look into each query's nearest cell lowers
@@ -168,7 +168,7 @@ def _within(tree: cKDTree, queries: Array, reach: Array, query: Index, distance:
         yield from _within(tree, queries, reach, part, *tree.query(queries[part], np.arange(1, count + 1)))
 
 
-def _nearest(cells: _Cells, queries: Array, query: Index, cell: Index) -> tuple[Index, Array, Index]:
+def _nearest(cells: _Bins, queries: Array, query: Index, cell: Index) -> tuple[Index, Array, Index]:
     """Nearest point of each query among the cells it is paired with: queries, squared distances, numbers of the points.
 
     ``query`` is sorted; of equally near points the first in the scan is taken.

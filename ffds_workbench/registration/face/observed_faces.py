@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..footpoints import surface_coordinates
-from ..scan_normals import facing, scan_normals
+from ..scan_normals import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .robust_fit import dense_layers
 
@@ -20,12 +20,12 @@ Index = NDArray[np.intp]
 REACH = 10.0
 LEAST_COVERAGE = 0.5
 _LEAST_POINTS = 30
-_SAMPLE = 40000
-_CELLS = 1024
+_SAMPLE_SIZE = 40000
+_RASTER_CELLS = 1024
 
 
 @dataclass(frozen=True)
-class _Candidate:
+class _FaceCandidate:
     """A face, and the layers of the sampled scan points that lie over it and face its way.
 
     Attributes
@@ -70,8 +70,8 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
     of its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a
     sheet that moved inwards by more than half the thickness is not taken for the other skin.
     """
-    if len(scan) > _SAMPLE:
-        scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE, replace=False)]
+    if len(scan) > _SAMPLE_SIZE:
+        scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE_SIZE, replace=False)]
     normals = scan_normals(scan)
     found = {number: _candidate(face, scan, normals, reach) for number, face in enumerate(faces)}
     candidates = {number: candidate for number, candidate in found.items() if candidate is not None}
@@ -86,10 +86,10 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
     return {}
 
 
-def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _Candidate | None:
-    raster = make_raster(face, _CELLS)
+def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) -> _FaceCandidate | None:
+    raster = make_raster(face, _RASTER_CELLS)
     points = surface_coordinates(raster, scan, reach, 0.0)
-    points = points.part(np.flatnonzero(facing(raster, points, normals[points.index])))
+    points = points.part(np.flatnonzero(faces_alike(raster, points, normals[points.index])))
     if len(points.x) < _LEAST_POINTS:
         return None
     layers = dense_layers(raster, points)
@@ -99,10 +99,10 @@ def _candidate(face: FaceGeometry, scan: Array, normals: Array, reach: float) ->
     i, j = np.divmod(np.arange(len(raster.area)), raster.shape[1])
     block = (layers.x.astype(int) // layers.block, layers.y.astype(int) // layers.block)
     cells = (i // layers.block == block[0][:, None]) & (j // layers.block == block[1][:, None])
-    return _Candidate(raster, points.index[rows], np.abs(points.height[rows]), first, cells)
+    return _FaceCandidate(raster, points.index[rows], np.abs(points.height[rows]), first, cells)
 
 
-def _owned(candidates: dict[int, _Candidate], count: int) -> dict[int, NDArray[np.bool_]]:
+def _owned(candidates: dict[int, _FaceCandidate], count: int) -> dict[int, NDArray[np.bool_]]:
     """For each face, which of its candidate points are nearer to it than to any other."""
     nearest, owner = np.full(count, np.inf), np.full(count, -1)
     for number, candidate in candidates.items():

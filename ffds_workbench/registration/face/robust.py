@@ -15,7 +15,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
-from ..scan_normals import facing, scan_normals
+from ..scan_normals import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .control_lattice import displacement_lattice
 from .face_result import FaceRegistration
@@ -23,8 +23,8 @@ from .robust_fit import (FacePoints, RasterFit, RobustSettings, automatic_lattic
                          face_points, main_patches, patches, proven, rigid_start)
 from .scan_coverage import covered_share
 
-_FEWEST_POINTS, _FEWEST_FITTED = 30, 20
-_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
+_LEAST_POINTS, _LEAST_FITTED = 30, 20
+_RASTER_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
 """Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
 
@@ -47,8 +47,8 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
     settings = settings or RobustSettings()
-    cells = max(_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0)))
-    if raster is None or cells > _CELLS:
+    cells = max(_RASTER_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0)))
+    if raster is None or cells > _RASTER_CELLS:
         raster = make_raster(face, cells)
     # What lies farther than the face is long cannot be told from its surroundings.
     settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
@@ -58,7 +58,7 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     layers = dense_layers(raster, points.sample)
     if np.mean(~layers.thin) > _MANY_WALLS and points.kept is not None and points.count <= _MOST_NORMALS:
         inner = points.kept[0]
-        points = points.only(facing(raster, inner, scan_normals(scan[inner.index])))
+        points = points.only(faces_alike(raster, inner, scan_normals(scan[inner.index])))
         _check_points(face, points, settings)
         layers = dense_layers(raster, points.sample)
     layers = replace(layers, density=layers.density * max(1.0, points.count / settings.sample))
@@ -96,14 +96,14 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
 
 
 def _check_points(face: FaceGeometry, points: FacePoints, settings: RobustSettings) -> None:
-    if points.count < _FEWEST_POINTS:
+    if points.count < _LEAST_POINTS:
         raise RefusedError(
             f"The scan does not lie on {face.name}: {points.count} of its points are within {settings.reach:g} mm of "
-            f"the face and at least {_FEWEST_POINTS} are needed; check the unit and the alignment of the scan.")
+            f"the face and at least {_LEAST_POINTS} are needed; check the unit and the alignment of the scan.")
 
 
 def _check_found(face: FaceGeometry, points: int) -> None:
-    if points < _FEWEST_FITTED:
+    if points < _LEAST_FITTED:
         raise RefusedError(f"The scan points near {face.name} do not form its surface: only {points} of them agree on "
                            f"one; leave the face out, or check the alignment of the scan.")
 

@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 from ..arrays import Array
 from ..uv_raster import Raster
 
-_DENSE = 2.0
-_SPACING = 1.2 * 2.13
+_DENSE_POINTS = 2.0
+_COVERED_SPACING = 1.2 * 2.13
 """Points at random, √(π / ln 2) = 2.13 median neighbour distances apart on average: 99 % of a covered area lie within
 1.2 spacings of one."""
 
@@ -27,9 +27,9 @@ def covered_share(raster: Raster, points: Array) -> float:
     if np.count_nonzero(occupied) < 2:
         return 0.0
     spacing = 1.0
-    if points[occupied].mean() < _DENSE:
+    if points[occupied].mean() < _DENSE_POINTS:
         places = np.argwhere(occupied.reshape(raster.shape))
-        spacing = max(spacing, _SPACING * float(np.median(cKDTree(places).query(places, 2)[0][:, 1])))
+        spacing = max(spacing, _COVERED_SPACING * float(np.median(cKDTree(places).query(places, 2)[0][:, 1])))
     seen = _distance(raster, occupied) <= spacing
     return float(raster.area[raster.inside & seen].sum() / raster.area[raster.inside].sum())
 

@@ -11,35 +11,36 @@ from ..arrays import Array
 from ..splines import greville
 from .data import patch_sums
 from .problem import Problem
-from .state import State, keep
+from .state import State, fresh_cache
 from .surfaces import FaceLattice, cubic
 
-_SHARE = 1 / 3
+_MODEL_SHARE = 1 / 3
 """Share of the model's error in the variance of a patch's mean from which the spans of a face are divided
 (calibrated: families of seeds from 1001 on)."""
-_FEWEST_PATCHES = 8
-_FULL = 0.3
+_LEAST_PATCHES = 8
+_FULL_PATCH = 0.3
 """Of the usual weight, what a patch has to have to be judged."""
-_MOST_CONTROLS = 6000
-_SENSOR = 0.5
+_LARGEST_LATTICE = 6000
+_SENSOR_NOISE_SHARE = 0.5
 """Share of the faces: where more of them ask, the sensor's noise is smooth rather than the shape rough, unless points
 share more of an error than they have noise of their own (unit)."""
 
 
-def finer_faces(problem: Problem, state: State) -> dict[int, int]:
+def faces_to_refine(problem: Problem, state: State) -> dict[int, int]:
     """Faces whose spans are to be halved, {face: 2}; empty where the lattice follows the scan down to its noise."""
-    if problem.lattices.count > _MOST_CONTROLS:
+    if problem.lattices.count > _LARGEST_LATTICE:
         return {}
     scatter, faces = state.values.scatter, len(problem.part.faces)
     precision = patch_sums(state.values.weight.reshape(problem.distance.shape))
     if not precision.any():
         return {}
-    full = precision > _FULL * np.median(precision[precision > 0])
+    full = precision > _FULL_PATCH * np.median(precision[precision > 0])
     face = np.broadcast_to(problem.lattices.face_of_span[:, None, None], full.shape)[full]
     count = np.bincount(face, minlength=faces)
     usual = np.bincount(face, precision[full], faces) / np.maximum(count, 1)
-    asks = (count >= _FEWEST_PATCHES) & (usual * scatter.model**2 > _SHARE) & (scatter.model > problem.lengths.model)
-    if asks.sum() > _SENSOR * (count >= _FEWEST_PATCHES).sum():
+    judged = count >= _LEAST_PATCHES
+    asks = judged & (usual * scatter.model**2 > _MODEL_SHARE) & (scatter.model > problem.lengths.model)
+    if asks.sum() > _SENSOR_NOISE_SHARE * judged.sum():
         asks &= scatter.model > scatter.sensor
     return dict.fromkeys(np.flatnonzero(asks).tolist(), 2)
 
@@ -57,8 +58,8 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
             values = np.moveaxis(np.tensordot(lstsq(rows, np.eye(len(sites)))[0], values, axes=(1, axis)), 0, axis)
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
-    kept = replace(keep(fine, control_points), near_edges=state.kept.near_edges)
-    return replace(state, control_points=control_points, kept=kept)
+    cache = replace(fresh_cache(fine, control_points), near_edges=state.cache.near_edges)
+    return replace(state, control_points=control_points, cache=cache)
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from ...errors import RefusedError
 from ..arrays import Array
 from .data import ScanStatistics
-from .surfaces import Places
+from .surfaces import SpanGrid
 
 _TYPICAL, _SEEN = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
@@ -52,7 +52,7 @@ class Lengths:
         return self.reach * _MODEL
 
 
-def find_lengths(cells: Places, sample: Array, statistics: ScanStatistics) -> tuple[Lengths, Array]:
+def find_lengths(cells: SpanGrid, sample: Array, statistics: ScanStatistics) -> tuple[Lengths, Array]:
     """The lengths, and how far the points of the sample lie from the nominal part, infinite beyond its size: (n,).
 
     Raises

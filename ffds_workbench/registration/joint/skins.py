@@ -17,49 +17,46 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
-from ..scan_sketch import Sketch, sketch_of
 from .data import correspond, make_frames
 from .problem import Problem
+from .skin_points import SkinPoints, skin_points
 from .state import State
 from .surfaces import normals
-from .uncertainty import paid
+from .uncertainty import prior_cost
 
-_POINTS = 2500
-_THICK = 3.0
+_TOO_THICK = 3.0
 """Sheets thicker than this many times the expected displacement are not taken for their far side."""
-_ROUGH = 8.0
-"""Noise above the thickness over this hides which side is which."""
-_SURE = 0.85
+_CLOSER = 0.85
 """A piece has a side where its points lie closer to the part by this factor than with the other side."""
-_FEWER, _LOST = 0.5, 0.004
+_LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
 """Likewise for the count of points that find nothing on the part, each raised by that share of all."""
-_FEWEST, _FEWEST_OF_PIECE = 100, 30
-_DOUBTFUL, _MAIN = 0.75, 0.2
+_LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
+_DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
 """A piece with this share of the sketch and less difference than this factor between its sides is tried both ways."""
-_CHEAPER, _LEFT_OUT = 0.8, 9.0
+_COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
 """A fit that costs less than the other one by this factor is right; a point that it leaves out costs what it would
 three standard deviations away."""
-_WALL_POINTS, _MORE = 50, 3
+_WALL_POINTS, _WALL_RATIO = 50, 3
 """The skin is seen whose fit has so many more scan points than this many times the other's on the walls beside it, …"""
-_NEARER, _LEVEL = 0.6, 0.9
+_MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
 """… or moved less by the first factor. Above it the nearer one is taken with bands as wide as the sheet is thick, up to
 the second one. Where the scan's normals tell the one that moved more, it is taken down to the first factor, with bands
 as wide from the second one on."""
-_AGREED = 0.5
+_AGREEMENT = 0.5
 """Mean of the signs within a smooth piece from which they are trusted."""
-_CLEAR = 0.5
+_MUCH_CLOSER = 0.5
 """A piece that lies closer to the part by this factor than with the other side tells it even against its normals."""
-_ALIKE, _MOST, _CONTRADICT = 0.7, 0.5, 0.1
+_NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
 """Mean cosine within a smooth piece between the scan's normals and the piece's own from which the scan's are trusted;
 the share of the scan on such pieces without which none are; and the one on which the points may contradict them before
 both are tried."""
-_NEIGHBOURS, _SMOOTH, _RISE = 9, 0.9, 0.35
+_NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
 """Neighbours that are tried, cosine of their normals, and sine of the step over their planes on a smooth surface."""
-_NEAR = 3.0
+_NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
 
-def facing(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:
+def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:
     """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
 
     ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
@@ -67,32 +64,33 @@ def facing(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:
     could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
     """
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
-    if not sheets or min(sheets) > _THICK * reach or problem.statistics.noise > min(sheets) / _ROUGH:
+    if not sheets or min(sheets) > _TOO_THICK * reach:
         return [None], False
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
-    near = problem.apart < reach
-    if near.sum() < _FEWEST:
-        return [None], False
     generator = np.random.default_rng(problem.settings.seed)
-    sketch = sketch_of(problem.sample[near], generator, _POINTS, finer=1)
-    distance, nearest = cKDTree(sketch.points).query(problem.sample, workers=-1)
-    known = (distance < _NEAR * np.median(distance))[:, None]
+    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, min(sheets), generator)
+    if len(sketch.points) < _LEAST_NEAR_POINTS:
+        return [None], False
+    tree = cKDTree(sketch.points)
+    distance, nearest = tree.query(problem.sample, workers=-1)
+    known = (distance < _NORMAL_REACH_IN_SPACINGS * np.median(tree.query(sketch.points, k=2)[0][:, 1]))[:, None]
     pieces = smooth_pieces(sketch.points, sketch.normals)
     signs, sure = _signs(place, normal, sketch, 2 * reach)
     sides = [_one_sign_each(pieces, item[sketch.piece]) for item in signs]
     told = np.zeros(len(sketch.points))
     if problem.sample_normals is not None:
-        told = _told_by_normals(pieces, _cosines(sketch, nearest, known * problem.sample_normals), sure[sketch.piece])
+        cosines = _cosines(sketch, nearest, known * problem.sample_normals)
+        told = _signs_of_scan_normals(pieces, cosines, sure[sketch.piece])
     if told.any():
         theirs = np.where(told == 0, sides[0], told)
-        sides = [theirs, *(side for side in sides if (side * theirs < 0).mean() > _CONTRADICT)][:2]
+        sides = [theirs, *(side for side in sides if (side * theirs < 0).mean() > _CONTRADICTION_SHARE)][:2]
     return [np.where(known, (side[:, None] * sketch.normals)[nearest], 0.0) for side in sides
             if side is sides[0] or (side != sides[0]).any()], bool(told.any())
 
 
-def shown(problem: Problem, states: list[State], told: bool) -> State:
+def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     """The right one of two fits of a sheet, to either of its skins; a single fit as it is.
 
     Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
@@ -106,21 +104,21 @@ def shown(problem: Problem, states: list[State], told: bool) -> State:
         return states[0]
     costs, matched, walls, moved = (np.array(item) for item in zip(*(_evidence(problem, state) for state in states),
                                                                    strict=True))
-    costs = costs + _LEFT_OUT * (matched.max() - matched)
+    costs = costs + _COST_OF_LOST_POINT * (matched.max() - matched)
     for own, other in ((0, 1), (1, 0)):
-        if costs[own] < _CHEAPER * costs[other]:
+        if costs[own] < _COST_RATIO * costs[other]:
             return states[own]
     for own, other in ((0, 1), (1, 0)):
-        if walls[own] > _MORE * walls[other] + _WALL_POINTS:
+        if walls[own] > _WALL_RATIO * walls[other] + _WALL_POINTS:
             return states[own]
     thickness = max(problem.couplings.pairs.solid_thickness)
     if told:
-        chosen = states[int(moved[1] < _NEARER * moved[0])]
-        return replace(chosen, unsure=thickness) if moved[1] < _LEVEL * moved[0] else chosen
+        chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
+        return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
     for own, other in ((0, 1), (1, 0)):
-        if moved[own] < _NEARER * moved[other]:
+        if moved[own] < _MOVED_CLEARLY_LESS * moved[other]:
             return states[own]
-        if moved[own] < _LEVEL * moved[other]:
+        if moved[own] < _MOVED_ALIKE * moved[other]:
             return replace(states[own], unsure=thickness)
     raise RefusedError("The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as "
                        "well, use a scan with normals, or align it to less than half the sheet's thickness first.")
@@ -136,11 +134,11 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0]
     moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]
     misfit = float((state.values.weight * state.values.height**2).sum())
-    return (paid(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
+    return (prior_cost(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
             float(np.abs(moved).mean()) if len(moved) else np.inf)
 
 
-def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> tuple[list[Array], Array]:
+def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tuple[list[Array], Array]:
     """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
 
     With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
@@ -153,21 +151,21 @@ def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> tuple[li
     lost = [np.bincount(sketch.piece, weights=np.isinf(found).astype(float)) for found in both]
     distance = [np.bincount(sketch.piece, weights=np.minimum(found, most)) for found in both]
     size = np.bincount(sketch.piece).astype(float)
-    told = _less(lost[0] + _LOST * size, lost[1] + _LOST * size, _FEWER)
-    near = np.where(told == 0, _less(distance[0], distance[1], _SURE), told)
-    doubtful = (told == 0) & (_less(distance[0], distance[1], _DOUBTFUL) == 0)
-    main = doubtful & (size > _MAIN * size.sum())
+    told = _clearly_less(lost[0] + _LOST_FLOOR * size, lost[1] + _LOST_FLOOR * size, _LOST_RATIO)
+    near = np.where(told == 0, _clearly_less(distance[0], distance[1], _CLOSER), told)
+    doubtful = (told == 0) & (_clearly_less(distance[0], distance[1], _DOUBTFUL_RATIO) == 0)
+    main = doubtful & (size > _LARGE_PIECE_SHARE * size.sum())
     first = np.where(main & (near == 0), np.where(distance[0] <= distance[1], 1.0, -1.0), near)
-    clear = np.where(told == 0, _less(distance[0], distance[1], _CLEAR), told)
+    clear = np.where(told == 0, _clearly_less(distance[0], distance[1], _MUCH_CLOSER), told)
     return [first, np.where(doubtful, -first, first)] if main.any() else [near], clear
 
 
-def _less(first: NDArray[np.number], second: NDArray[np.number], factor: float) -> Array:
+def _clearly_less(first: NDArray[np.number], second: NDArray[np.number], factor: float) -> Array:
     """+1 where the first is less by that factor, −1 where the second is, else 0."""
     return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, 0.0))
 
 
-def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _AGREED) -> Array:
+def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _AGREEMENT) -> Array:
     """The signs (n,) of most points of every smooth piece for all of it: 0 where they contradict each other.
 
     Signs carried around the edge of a thin sheet may go astray; across a smooth surface they do not.
@@ -175,27 +173,27 @@ def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _A
     piece, side = pieces
     size = np.bincount(piece)
     mean = np.bincount(piece, weights=signs * side) / np.maximum(size, 1)
-    trusted = (np.abs(mean) > agreed) & (size >= _FEWEST_OF_PIECE)
+    trusted = (np.abs(mean) > agreed) & (size >= _LEAST_PIECE_POINTS)
     return np.where(trusted, np.sign(mean), 0.0)[piece] * side
 
 
-def _cosines(sketch: Sketch, nearest: Index, given: Array) -> Array:
+def _cosines(sketch: SkinPoints, nearest: Index, given: Array) -> Array:
     """Mean cosine of the sketch's normals to those given (m, 3), some of them zero, of the nearest points: (n,)."""
     count = len(sketch.points)
     total = np.bincount(nearest, np.einsum("nx,nx->n", given, sketch.normals[nearest]), count)
     return total / np.maximum(np.bincount(nearest, given.any(axis=1), count), 1)
 
 
-def _told_by_normals(pieces: tuple[Index, Array], cosine: Array, sure: Array) -> Array:
+def _signs_of_scan_normals(pieces: tuple[Index, Array], cosine: Array, sure: Array) -> Array:
     """Signs (n,) that the scan's normals give to the sketch's, 0 where they tell nothing.
 
     They point out of the material, or all into it: then the sides that are ``sure`` (n,) from the points contradict
     them. Where these contradict a part of them, or neighbours do each other, nobody knows what they mean.
     """
-    signs = _one_sign_each(pieces, cosine, _ALIKE)
+    signs = _one_sign_each(pieces, cosine, _NORMALS_AGREE)
     compared = np.count_nonzero(sure * signs)
-    agreed = float((sure * signs).sum()) / compared if compared >= _FEWEST_OF_PIECE else 1.0
-    if np.count_nonzero(signs) < _MOST * len(signs) or abs(agreed) < _AGREED:
+    agreed = float((sure * signs).sum()) / compared if compared >= _LEAST_PIECE_POINTS else 1.0
+    if np.count_nonzero(signs) < _TELLING_NORMALS_SHARE * len(signs) or abs(agreed) < _AGREEMENT:
         return np.zeros(len(signs))
     return np.sign(agreed) * signs
 
@@ -213,7 +211,7 @@ def smooth_pieces(points: Array, directions: Array) -> tuple[Index, Array]:
     step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
     cosine = np.einsum("nx,nx->n", directions[start], directions[end])
     rise = np.maximum(*(np.abs(np.einsum("nx,nx->n", step, directions[k])) for k in (start, end)))
-    smooth = (np.abs(cosine) > _SMOOTH) & (rise < _RISE)
+    smooth = (np.abs(cosine) > _SMOOTH_COSINE) & (rise < _SMOOTH_RISE)
     start, end, crossed = start[smooth], end[smooth], (cosine[smooth] < 0) * count
     rows = np.concatenate([start, start + count])
     columns = np.concatenate([end + crossed, (end + count + crossed) % (2 * count)])

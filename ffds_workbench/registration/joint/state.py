@@ -9,36 +9,36 @@ import numpy as np
 from ..arrays import Array, Index
 from .assembly import strain_blocks
 from .body_field import BodyRows
-from .data import Borders, CellValues, NearEdges, Scatter, nothing
+from .data import Borders, CellHeights, NearEdges, Scatter, no_heights
 from .linear import FrontCholesky
-from .problem import Across, Problem
-from .settings import Trust
+from .priors import PriorTrust
+from .problem import Problem, ThicknessRows
 
 
 @dataclass(frozen=True)
-class Kept:
+class StepCache:
     """What the next step uses again, because the shape hardly changes.
 
     Attributes
     ----------
-    strained : `strain_blocks` of a shape near by
-    across : along which normals thickness is measured
-    turned : how far the shape has moved since `strained`, in mm
+    strain_matrices : `strain_blocks` of a shape near by
+    thickness_rows : along which normals thickness is measured
+    moved : how far the shape has moved since `strain_matrices`, in mm
     nearest : nearest cells of the scan points of this stage, once they were matched
     near_edges, borders : scan points near the edges and visible borders, from the soft stages on
     body : what the body tells of its faces, in its stage
-    factor, stiff : of an earlier normal matrix, and the multiple of the bending weight in it
+    factor, factor_bending : of an earlier normal matrix, and the multiple of the bending weight in it
     """
 
-    strained: Array
-    across: Across
-    turned: float = 0.0
+    strain_matrices: Array
+    thickness_rows: ThicknessRows
+    moved: float = 0.0
     nearest: Index | None = None
     near_edges: NearEdges | None = None
     borders: Borders | None = None
     body: BodyRows | None = None
     factor: FrontCholesky | None = None
-    stiff: float = 0.0
+    factor_bending: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class State:
     control_points : (controls, 3) displacement in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
-    kept : for the next one
+    cache : what the next one uses again
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     trust : in the priors
     last_step : largest movement of a cell in the last iteration, in mm
@@ -60,18 +60,18 @@ class State:
 
     control_points: Array
     reach: float
-    values: CellValues
-    kept: Kept
+    values: CellHeights
+    cache: StepCache
     facing: Array | None = None
-    trust: Trust = field(default_factory=Trust)
+    trust: PriorTrust = field(default_factory=PriorTrust)
     last_step: float = np.inf
     iterations: int = 0
     unsure: float = 0.0
 
 
-def keep(problem: Problem, control_points: Array) -> Kept:
+def fresh_cache(problem: Problem, control_points: Array) -> StepCache:
     """What a first step on a shape uses."""
-    return Kept(strain_blocks(problem, control_points), problem.across(control_points))
+    return StepCache(strain_blocks(problem, control_points), problem.thickness_rows(control_points))
 
 
 def start(problem: Problem) -> State:
@@ -79,4 +79,4 @@ def start(problem: Problem) -> State:
     faces, lengths = len(problem.part.faces), problem.lengths
     still = np.zeros((problem.lattices.count, 3))
     scatter = Scatter(np.full(faces, lengths.noise), np.zeros(faces), np.full(faces, lengths.start))
-    return State(still, lengths.reach, nothing(problem.distance.size, scatter), keep(problem, still))
+    return State(still, lengths.reach, no_heights(problem.distance.size, scatter), fresh_cache(problem, still))

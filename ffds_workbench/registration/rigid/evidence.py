@@ -12,17 +12,18 @@ from ..arrays import Array
 from ..motions import apply
 from ..parallel import workers
 from ..scan_sketch import Plane, Sketch
-from .deformation import NOT, STIFF, Deformation, Match, Rounds, match
+from .deformation import (NO_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS, DisplacementField, Match, Rounds,
+                          match_deformed)
 from .model import Target
 
 _NORMALS_AGREE = 0.6
-_ROUGH = 0.003
+_HIDING_NOISE = 0.003
 """Noise above this share of the part's size hides sides and small features."""
-_MOST_VIEWS, _AROUND = 3, 4
+_CAMERAS, _NEIGHBOURS = 3, 4
 """Cameras; and points near a sample of which one has to face as it does: the nearest may be of a sheet's far side."""
-_PRICE = 6.0
+_DEFORMATION_PENALTY = 6.0
 """What a deformation by the part's size takes off the score: 4 % that bend another part into this one take off 0.24."""
-_NEAR = 0.06
+_DEFORMATION_REACH = 0.06
 """Reach of the smooth deformation that is allowed for, as a share of the part's size."""
 
 
@@ -51,7 +52,7 @@ class Evidence:
     @property
     def score(self) -> float:
         """Rank among poses, larger is better, 1 is perfect."""
-        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced - _PRICE * self.bent
+        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced - _DEFORMATION_PENALTY * self.bent
 
     @property
     def certainty(self) -> float:
@@ -59,9 +60,9 @@ class Evidence:
         return 0.5 * (self.score + self.explained)
 
 
-def is_rough(target: Target, sketch: Sketch) -> bool:
+def hides_sides(target: Target, sketch: Sketch) -> bool:
     """Whether the noise is so large that normals and the sides of sheets are guesses."""
-    return sketch.noise > _ROUGH * target.size
+    return sketch.noise > _HIDING_NOISE * target.size
 
 
 def facing_normals(target: Target, points: Array) -> Array:
@@ -69,8 +70,8 @@ def facing_normals(target: Target, points: Array) -> Array:
     return target.samples.normals[target.tree.query(points)[1]]
 
 
-def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
-            rounds: Rounds = STIFF) -> Evidence:
+def weigh_pose(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
+               rounds: Rounds = STIFF_DEFORMATION_ROUNDS) -> Evidence:
     """Weigh a pose.
 
     Parameters
@@ -79,24 +80,25 @@ def examine(target: Target, sketch: Sketch, pose: Array, normals: Array, table: 
     pose : (4, 4), T_model_scan
     normals : (n, 3) outward normals of the sketch in model coordinates
     table : the plane beside the part, scan coordinates
-    rounds : of the smooth deformation that is allowed for, see ``match``
+    rounds : of the smooth deformation that is allowed for, see ``match_deformed``
     """
-    return weigh(target, sketch, pose, normals, table, matched(target, sketch, pose, normals, rounds)[0])
+    return weigh_match(target, sketch, pose, normals, table, match_sketch(target, sketch, pose, normals, rounds)[0])
 
 
-def matched(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: Rounds,
-            start: Deformation | None = None) -> tuple[Match, Deformation]:
-    """The sketch matched with the part; see ``examine`` and ``match``."""
+def match_sketch(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: Rounds,
+                 start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
+    """The sketch matched with the part; see ``weigh_pose`` and ``match_deformed``."""
     # under large noise a smooth deformation could not be told from a wrong pose
-    return match(target, apply(pose, sketch.points), normals, 2.0 * _NEAR * target.size,
-                 NOT if is_rough(target, sketch) else rounds, start)
+    return match_deformed(target, apply(pose, sketch.points), normals, 2.0 * _DEFORMATION_REACH * target.size,
+                          NO_DEFORMATION_ROUNDS if hides_sides(target, sketch) else rounds, start)
 
 
-def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None, found: Match) -> Evidence:
-    """What a match says of a pose; see ``examine``."""
+def weigh_match(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
+                found: Match) -> Evidence:
+    """What a match says of a pose; see ``weigh_pose``."""
     size, moved = target.size, apply(pose, sketch.points)
     agree, explained, misfit = _explained(target, sketch, normals, found)
-    coverage, missing = _views(target, found.points[explained], normals[explained], sketch)
+    coverage, missing = _coverage(target, found.points[explained], normals[explained], sketch)
     pierced = 0.0
     if table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
@@ -106,40 +108,41 @@ def weigh(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Pl
 
 
 def misfit_of(target: Target, sketch: Sketch, normals: Array, found: Match) -> float:
-    """The misfit alone of the evidence that ``weigh`` gives."""
+    """The misfit alone of the evidence that ``weigh_match`` gives."""
     return _explained(target, sketch, normals, found)[2]
 
 
 def _explained(target: Target, sketch: Sketch, normals: Array, found: Match,
                ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
     """Which points face as the part does, which of them lie on it, and the misfit of all."""
-    beside = _beside(target, found.points, found.nearest, found.height, found.normal)
+    beside = _distance_beyond_faces(target, found.points, found.nearest, found.height, found.normal)
     agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
     cap = max(0.008 * target.size, 4.0 * sketch.noise)
     distance = np.where(agree, np.hypot(found.height, beside), cap + sketch.noise)
     return agree, agree & (distance < cap), float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
 
 
-def _beside(target: Target, points: Array, nearest: NDArray[np.intp], height: Array, normal: Array) -> Array:
+def _distance_beyond_faces(target: Target, points: Array, nearest: NDArray[np.intp], height: Array,
+                           normal: Array) -> Array:
     """Distance in mm along the surface from where the face ends to points that lie beyond; (n,)."""
     along = points - target.samples.points[nearest] - height[:, None] * normal
     gap = np.maximum(np.linalg.norm(along, axis=1) - 1.5 * target.spacing, 0.0)
-    beyond = target.overshoot(points, nearest, _NEAR * target.size)[0]
+    beyond = target.overshoot(points, nearest, _DEFORMATION_REACH * target.size)[0]
     return np.maximum(gap, beyond)
 
 
-def _views(target: Target, points: Array, normals: Array, sketch: Sketch) -> tuple[float, float]:
+def _coverage(target: Target, points: Array, normals: Array, sketch: Sketch) -> tuple[float, float]:
     """Coverage of the visible surface, and what the cameras that best explain it ought to have seen besides."""
     samples = target.even
     if len(points) < 12:
         return 0.0, 1.0
     reach = max(3.0 * sketch.spacing, 0.025 * target.size)
-    distance, index = cKDTree(points).query(samples.points, k=_AROUND, distance_upper_bound=reach,
+    distance, index = cKDTree(points).query(samples.points, k=_NEIGHBOURS, distance_upper_bound=reach,
                                             workers=workers(samples.points))
     padded = np.concatenate([normals, np.zeros((1, 3))])
     covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
     seen, worth = np.zeros(len(covered), dtype=bool), np.where(covered, np.float32(1.0), np.float32(-1.0))
-    for _ in range(_MOST_VIEWS):
+    for _ in range(_CAMERAS):
         gain = target.sees @ np.where(seen, np.float32(0.0), worth)
         best = int(np.argmax(gain))
         if gain[best] <= 0.02 * len(covered):

@@ -8,10 +8,10 @@ from ..arrays import Array
 
 SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
 """Factors to mm that scans come in beside 1; each may also be off the other way round."""
-_TRUSTED = (0.3, 4.0)
+_TRUSTED_RATIO = (0.3, 4.0)
 """Ratio of scan size to part size at which the unit given is tried first: partial views below, clutter above."""
-_POSSIBLE = (0.12, 10.0)
-_MOST = 3
+_POSSIBLE_RATIO = (0.12, 10.0)
+_TRIED_SCALES = 3
 
 
 def extent(scan: Array) -> float:
@@ -31,9 +31,9 @@ def plausible_scales(scan: Array, size: float) -> list[float]:
     """
     ratio = max(extent(scan), 1e-300) / size
     factors = [1.0, *SCALES.values(), *(1.0 / factor for factor in SCALES.values())]
-    possible = [f for f in factors if _POSSIBLE[0] < ratio * f < _POSSIBLE[1]]
-    trusted = _TRUSTED[0] < ratio < _TRUSTED[1]
-    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:_MOST]
+    possible = [f for f in factors if _POSSIBLE_RATIO[0] < ratio * f < _POSSIBLE_RATIO[1]]
+    trusted = _TRUSTED_RATIO[0] < ratio < _TRUSTED_RATIO[1]
+    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:_TRIED_SCALES]
 
 
 def unit_name(scale: float) -> str:

@@ -15,7 +15,7 @@ from ..control_lattice import ControlLattice
 from .normal_equations import NormalMatrix, grid_products, offset_products
 
 _ORDERS = ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
-_FEWEST_NODES = 16
+_LEAST_NODES = 16
 
 
 def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: NormalMatrix) -> tuple[Array, Array]:
@@ -144,7 +144,7 @@ def _tensors(s_u: Array, s_v: Array, s_uu: Array, s_uv: Array, s_vv: Array, norm
 def _nodes(knots: Array) -> tuple[Array, Array]:
     """Gauss points and weights, two per span; spans are split where there are few."""
     breaks = np.unique(knots[DEGREE : len(knots) - DEGREE])
-    pieces = int(np.ceil(0.5 * _FEWEST_NODES / (len(breaks) - 1)))
+    pieces = int(np.ceil(0.5 * _LEAST_NODES / (len(breaks) - 1)))
     breaks = np.interp(np.arange((len(breaks) - 1) * pieces + 1) / pieces, np.arange(len(breaks)), breaks)
     half = 0.5 * np.diff(breaks)
     middle = 0.5 * (breaks[:-1] + breaks[1:])

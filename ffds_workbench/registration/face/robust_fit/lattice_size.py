@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...arrays import Array
 from ...splines import DEGREE, SplineSurface, basis_matrix, clamped_knots
 from ...uv_raster import Raster
-from ..control_lattice import ControlLattice, displacement_lattice, folded, periodic_knots
+from ..control_lattice import ControlLattice, displacement_lattice, periodic_knots, sum_repeated
 from .layers import Layers
 from .normal_equations import LEAST_NOISE
 
@@ -24,18 +24,18 @@ Index = NDArray[np.intp]
 _SPAN_IN_LENGTHS = 4.0
 _COARSE_SPANS = 7
 _LARGEST_TURN = np.radians(30)
-_FEWEST, _MOST = 4, 64
-_SPANS = (2, 3, 4, 6, 8, 11, 15, 20, 27)
+_LEAST_CONTROLS, _LARGEST_CONTROLS = 4, 64
+_TRIED_SPANS = (2, 3, 4, 6, 8, 11, 15, 20, 27)
 _HELD_OUT_BLOCKS, _HELD_OUT_SHARE = 3, 0.125
 """Side of the squares that are held out: in blocks and in lengths of the face, so that noise has little in common with
 what is left."""
-_FOLDS = 4
-_TOLERANCE = 0.01
+_FOLD_COUNT = 4
+_ALIKE_RESIDUALS = 0.01
 """Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
-_ALWAYS, _PATIENCE = 8, 2
-_OUTLIER = 16.0
+_ALWAYS_TRIED, _PATIENCE = 8, 2
+_OUTLIER_VARIANCES = 16.0
 """Squared residuals count up to this many variances: one stray layer must not decide."""
-_NODES = 100
+_BENDING_NODES = 100
 
 
 def coarse_lattice(raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:
@@ -65,12 +65,12 @@ def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, we
     sample = _folds(raster, layers, weights / max(layers.noise, LEAST_NOISE) ** 2)
     scores: list[float] = []
     sizes: list[tuple[int, int]] = []
-    for spans in [s for s in _SPANS if s <= finest] or [_SPANS[0]]:
+    for spans in [s for s in _TRIED_SPANS if s <= finest] or [_TRIED_SPANS[0]]:
         sizes.append(_size(raster, spans))
         scores.append(_held_out(displacement_lattice(surface, sizes[-1]), raster, sample, stiffness))
-        if spans >= _ALWAYS and len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
+        if spans >= _ALWAYS_TRIED and len(scores) - 1 - int(np.argmin(scores)) >= _PATIENCE:
             break
-    good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _TOLERANCE))
+    good = np.flatnonzero(np.array(scores) <= min(scores) * (1 + _ALIKE_RESIDUALS))
     return sizes[min(int(good[0]) + 1, len(sizes) - 1)]
 
 
@@ -91,7 +91,8 @@ def _size(raster: Raster, spans: float) -> tuple[int, int]:
     for axis in (0, 1):
         turns = np.ceil(raster.turn[axis] / _LARGEST_TURN)
         count = int(max(round(lengths[axis] / edge), turns, 1))
-        size.append(int(np.clip(count if raster.periodic[axis] else count + DEGREE, _FEWEST, _MOST)))
+        controls = count if raster.periodic[axis] else count + DEGREE
+        size.append(int(np.clip(controls, _LEAST_CONTROLS, _LARGEST_CONTROLS)))
     return size[0], size[1]
 
 
@@ -109,10 +110,10 @@ class _Sample:
 def _folds(raster: Raster, layers: Layers, weights: Array) -> _Sample:
     """Squares of the face, dealt out to the folds so that no two neighbours are in the same."""
     edge = np.maximum(_HELD_OUT_BLOCKS * layers.block, _HELD_OUT_SHARE * max(_lengths(raster)) / raster.size)
-    fold = ((layers.x // edge[0]).astype(int) + 2 * (layers.y // edge[1]).astype(int)) % _FOLDS
-    rows = np.argsort(np.where(weights > 0, fold, _FOLDS), kind="stable")[: np.count_nonzero(weights > 0)]
+    fold = ((layers.x // edge[0]).astype(int) + 2 * (layers.y // edge[1]).astype(int)) % _FOLD_COUNT
+    rows = np.argsort(np.where(weights > 0, fold, _FOLD_COUNT), kind="stable")[: np.count_nonzero(weights > 0)]
     u, v = raster.corner[:, None] + raster.step[:, None] * np.stack([layers.x[rows], layers.y[rows]])
-    return _Sample(u, v, layers.height[rows], weights[rows], np.searchsorted(fold[rows], np.arange(_FOLDS + 1)))
+    return _Sample(u, v, layers.height[rows], weights[rows], np.searchsorted(fold[rows], np.arange(_FOLD_COUNT + 1)))
 
 
 def _held_out(lattice: ControlLattice, raster: Raster, sample: _Sample, stiffness: float) -> float:
@@ -128,7 +129,7 @@ def _held_out(lattice: ControlLattice, raster: Raster, sample: _Sample, stiffnes
     squared = 0.0
     for part, y, gram, moment in parts:
         residual = y - part @ np.linalg.solve(matrix - gram, right - moment)
-        squared += float(np.minimum(residual**2, _OUTLIER).sum())
+        squared += float(np.minimum(residual**2, _OUTLIER_VARIANCES).sum())
     return squared / max(len(heights), 1)
 
 
@@ -145,7 +146,7 @@ def _flat_bending(raster: Raster, lattice: ControlLattice) -> Array:
 def _unit_grams(fold: tuple[int, ...], closed: bool) -> tuple[Array, Array, Array]:
     """∫ N_i^(k) N_j^(k) over [0, 1] for k = 0, 1, 2, of a direction with the given repeated control points."""
     knots = periodic_knots(0, 1, len(fold) - DEGREE) if closed else clamped_knots(0, 1, len(fold))
-    x = (np.arange(_NODES) + 0.5) / _NODES
-    bases = [folded(basis_matrix(knots, x, derivative=k), np.array(fold)) for k in range(3)]
-    a, b, c = (basis.T @ basis / _NODES for basis in bases)
+    x = (np.arange(_BENDING_NODES) + 0.5) / _BENDING_NODES
+    bases = [sum_repeated(basis_matrix(knots, x, derivative=k), np.array(fold)) for k in range(3)]
+    a, b, c = (basis.T @ basis / _BENDING_NODES for basis in bases)
     return a, b, c

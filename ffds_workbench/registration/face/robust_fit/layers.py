@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ...footpoints import SurfaceCoordinates
+from ...robust_weights import TUKEY_SIGMAS, tukey
 from ...uv_raster import Raster
 
 Index = NDArray[np.intp]
@@ -20,23 +21,22 @@ Index = NDArray[np.intp]
 _POINTS_PER_BLOCK = 16
 _SMALLEST_GAP = 0.5
 _GAP_IN_SIGMAS = 5.0
-_DENSE = 0.3
+_DENSE_SHARE = 0.3
 """A layer counts if it has this share of the points of the densest layer of its block."""
 _THIRD_OF_NORMAL = 0.8615
 """Width of the shortest interval that holds a third of a normal distribution, in standard deviations."""
-_CLEANER = 0.3
+_CLEAN_QUANTILE = 0.3
 """Quantile of the blocks by which the noise is judged: the others may hold walls, steps and slopes."""
 _MOST_PLANES = 500
-_THICK, _STEEP = 3.0, 0.15
+_THICK_LAYER, _STEEP_LAYER = 3.0, 0.15
 """A layer whose middle half is thicker than 3 × (noise + 0.15 × its block) is no sheet seen from above."""
-_STARTS = 21
+_START_OFFSETS = 21
 _START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
-_WINDOW = 4.0
+_SHEET_WINDOW = 4.0
 """Layers this close (mm) to a start may be two skins of one sheet, and the outermost is taken."""
-_FARTHER = 0.3
+_FARTHER_PENALTY = 0.3
 """What a start at the end of the reach must explain more than one at the nominal, as a share."""
-_TILT = 0.1
-_NOISE_CUT = 4.685
+_EXPECTED_TILT = 0.1
 
 
 @dataclass(frozen=True)
@@ -119,10 +119,10 @@ def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     size = np.diff(np.append(start, len(block)))
     owner = np.searchsorted(first, start, side="right") - 1
     densest = np.maximum.reduceat(size, np.searchsorted(start, first))
-    dense = size >= _DENSE * densest[owner]
+    dense = size >= _DENSE_SHARE * densest[owner]
     start, size = start[dense], size[dense]
     inner = height[start + (3 * size) // 4] - height[start + size // 4]
-    thin = inner <= _THICK * (noise + _STEEP * edge * float(raster.size.max()))
+    thin = inner <= _THICK_LAYER * (noise + _STEEP_LAYER * edge * float(raster.size.max()))
     third = np.maximum(size // 3, 1)
     begin = np.where(thin, start, _shortest(height, start, size, third)[0])
     end = begin + np.where(thin, size, third)
@@ -159,11 +159,11 @@ def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
     arm = (raster.position[cell] - centre) / size
     columns = np.concatenate([raster.normal[cell], np.cross(arm, raster.normal[cell])], axis=1)
     reach = max(float(np.abs(layers.height).max()), 1e-6)
-    prior = 1e-3 * np.array([1 / reach**2] * 3 + [1 / (_TILT * size) ** 2] * 3) * len(cell)
-    offsets = np.linspace(-reach, reach, _STARTS)
+    prior = 1e-3 * np.array([1 / reach**2] * 3 + [1 / (_EXPECTED_TILT * size) ** 2] * 3) * len(cell)
+    offsets = np.linspace(-reach, reach, _START_OFFSETS)
     residual = layers.height[None] - offsets[:, None]
     products = (columns[:, :, None] * columns[:, None]).reshape(len(cell), -1)
-    motion = np.zeros((_STARTS, 6))
+    motion = np.zeros((_START_OFFSETS, 6))
     for gate in _START_GATES:
         weight = _weights(layers, residual, gate)
         normal = (weight @ products).reshape(-1, 6, 6) + np.diag(prior)
@@ -171,19 +171,14 @@ def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
         residual = layers.height[None] - motion @ columns.T
     explained = _weights(layers, residual, _START_GATES[-1]).sum(axis=1)
     offset = np.abs(motion @ columns.mean(axis=0))
-    best = motion[np.argmax(explained * (1 - _FARTHER * offset / reach))]
+    best = motion[np.argmax(explained * (1 - _FARTHER_PENALTY * offset / reach))]
     return SmallMotion(best[:3], best[3:] / size, centre)
 
 
 def _weights(layers: Layers, residual: Array, gate: float) -> Array:
-    gate = max(gate, _NOISE_CUT * layers.noise)
-    return tukey(residual, gate) * layers.outermost(residual, max(min(gate, _WINDOW), _NOISE_CUT * layers.noise))
-
-
-def tukey(residual: Array, gate: float) -> Array:
-    """Tukey's weights (1 − (r / gate)²)² within the gate, 0 beyond it."""
-    share = np.minimum(np.square(residual / gate), 1.0)
-    return np.square(1 - share)
+    gate = max(gate, TUKEY_SIGMAS * layers.noise)
+    window = max(min(gate, _SHEET_WINDOW), TUKEY_SIGMAS * layers.noise)
+    return tukey(residual, gate) * layers.outermost(residual, window)
 
 
 def plateau(residual: Array, gate: float) -> Array:
@@ -211,7 +206,7 @@ def _blocks(raster: Raster, points: SurfaceCoordinates) -> tuple[Index, int]:
 def _spread_of_thirds(height: Array, first: Index, count: Index) -> float:
     """Standard deviation from the shortest interval that holds a third of a block's points, in the cleaner blocks."""
     width = _shortest(height, first, count, np.maximum(count // 3, 1))[1][count >= 6]
-    return float(np.quantile(width, _CLEANER)) / _THIRD_OF_NORMAL if len(width) else float(np.std(height))
+    return float(np.quantile(width, _CLEAN_QUANTILE)) / _THIRD_OF_NORMAL if len(width) else float(np.std(height))
 
 
 def _spread_about_planes(place: Array, first: Index, count: Index) -> float:
@@ -226,7 +221,7 @@ def _spread_about_planes(place: Array, first: Index, count: Index) -> float:
         return float(np.std(place[2]))
     moments = np.array([[np.add.reduceat(place[a] * place[b], first)[full] for b in range(3)] for a in range(3)])
     smallest = np.linalg.eigvalsh((moments / (count[full] - 3)).transpose(2, 0, 1))[:, 0]
-    return float(np.sqrt(np.quantile(np.maximum(smallest, 0), _CLEANER)))
+    return float(np.sqrt(np.quantile(np.maximum(smallest, 0), _CLEAN_QUANTILE)))
 
 
 def _shortest(height: Array, first: Index, count: Index, steps: Index) -> tuple[Index, Array]:

@@ -125,7 +125,7 @@ def normal_matrix(lattice: ControlLattice, components: int) -> NormalMatrix:
     return NormalMatrix(unknown, size, band, upper, place[upper], both, place[both], scale[both])
 
 
-def solve(matrix: Array, right_side: Array) -> Array:
+def solve_banded(matrix: Array, right_side: Array) -> Array:
     """Solution of a positive definite system in upper banded storage.
 
     Raises

@@ -18,10 +18,10 @@ from .layers import Layers
 
 Index = NDArray[np.intp]
 
-_SLOPE = 0.2
-_NOISE = 2.0
-_MAIN = 0.1
-_SPARSE = 0.25
+_LARGEST_SLOPE = 0.2
+_NOISE_FACTOR = 2.0
+_MAIN_PATCH_SHARE = 0.1
+_SPARSE_LAYER = 0.25
 """Layers with less than this share of the usual number of points join nothing: outliers between two sheets would."""
 _MOST_LAYERS = 4
 
@@ -56,8 +56,9 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
     dy = raster.nearest_turn(layers.y[a] - layers.y[b], 1) * raster.size[1]
     step = np.hypot(dx, dy)
     residual = np.nan_to_num(residual, posinf=1e9)
-    dense = layers.count >= _SPARSE * np.median(layers.count)
-    joined = dense[a] & dense[b] & (np.abs(residual[a] - residual[b]) <= _SLOPE * step + _NOISE * layers.noise)
+    dense = layers.count >= _SPARSE_LAYER * np.median(layers.count)
+    allowed = _LARGEST_SLOPE * step + _NOISE_FACTOR * layers.noise
+    joined = dense[a] & dense[b] & (np.abs(residual[a] - residual[b]) <= allowed)
     graph = coo_matrix((np.ones(np.count_nonzero(joined)), (a[joined], b[joined])), shape=(len(block), len(block)))
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
 
@@ -65,7 +66,7 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
 def main_patches(label: Index, weights: Array) -> NDArray[np.bool_]:
     """Which layers lie in a patch that carries at least a tenth of the weight of the heaviest one."""
     total = np.bincount(label, weights)
-    return np.asarray((total >= _MAIN * total.max())[label])
+    return np.asarray((total >= _MAIN_PATCH_SHARE * total.max())[label])
 
 
 def proven(raster: Raster, layers: Layers, label: Index, trusted: NDArray[np.bool_], residual: Array, gate: float,

@@ -15,67 +15,34 @@ from numpy.typing import NDArray
 from ...arrays import Array
 from ...face_geometry import FaceGeometry
 from ...footpoints import SurfaceCoordinates, joined, newton_in_cells
+from ...robust_weights import MAD_TO_SIGMA, TUKEY_SIGMAS, tukey
 from ...splines import SplineSurface, basis_matrix, tensor_product
 from ...uv_raster import Raster, dot
 from ..control_lattice import ControlLattice
 from .bending import bending_and_gauge, curvature_variation
 from .face_points import FacePoints
-from .layers import Layers, SmallMotion, plateau, tukey
-from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve
+from .layers import Layers, SmallMotion, plateau
+from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve_banded
+from .robust_settings import RobustSettings
 
 Index = NDArray[np.intp]
 
-_NOISE_CUT = 4.685
-"""Tukey's constant: 95 % efficiency on normal noise."""
 _RIM_BLOCK = 8
 """Points near the trims are judged in blocks of 8 × 8 cells."""
-_STRAY, _OFF = 0.1, 0.2
+_STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
 """A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
 0.2 standard deviations of the surface, or three of its own."""
-_BENDING_SHARE, _EVEN_SHARE, _LONGEST = 0.1, 0.6, 20.0
+_BENDING_SHARE, _EVEN_SHARE, _LONGEST_LENGTH = 0.1, 0.6, 20.0
 """Price of all bending and of uneven bending, as shares of what bending cost before; and the longest length in mm over
 which curvature is expected to change."""
-_MOST_NOISIER = 1.5
+_LARGEST_NOISE_GROWTH = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
 """Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
 
 
 @dataclass(frozen=True)
-class RobustSettings:
-    """Settings of `register_robust`.
-
-    Attributes
-    ----------
-    reach : largest distance in mm from the nominal at which a point may belong to the face
-    margin : points nearer than this (mm) to a trim, or to half the face's half width, carry no weight
-    curvature, length : expected bending of the displacement (1/mm) and the length over which it varies (mm); their
-        product squared is the variance that weighs the bending energy
-    gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
-    stiff : bending multiplier and gate in mm of the first steps, on all layers of the scan
-    soft : the same for the next ones, on the layers that hang together
-    final : the same for the last ones, on points instead of layers
-    sample : number of scan points that all steps but the last look at
-    """
-
-    reach: float = 15.0
-    margin: float = 0.7
-    curvature: float = 0.002
-    length: float = 10.0
-    gauge: float = 1e-2
-    stiff: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0))
-    soft: tuple[tuple[float, float], ...] = ((1e2, 1.5), (30, 1.2), (10, 1.0))
-    final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
-    sample: int = 12000
-
-    @property
-    def stiffness(self) -> float:
-        """Weight of the bending energy in chi-square units."""
-        return 1 / (self.curvature * self.length) ** 2
-
-
-@dataclass(frozen=True)
-class State:
+class FitState:
     """A displacement on the raster, and the data behind it.
 
     Attributes
@@ -112,7 +79,7 @@ class _Graph:
 
 
 @dataclass(frozen=True)
-class _Cells:
+class _CellSums:
     """Data against a surface, per cell (m·n,): sums of weights and of weighted residuals, and the number of points with
     weight; and the absolute residuals of some of them."""
 
@@ -138,7 +105,7 @@ class RasterFit:
         self.products_u = offset_products(self.basis_u[0], self.basis_u[0])
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
 
-    def allow_even_bending(self, state: State) -> None:
+    def allow_even_bending(self, state: FitState) -> None:
         """From here on a plane may bend, as long as it bends evenly: what its curvature changes by costs instead.
 
         Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
@@ -150,10 +117,10 @@ class RasterFit:
         variation = curvature_variation(self.surface, self.lattice, self.layout)
         bent = self.layout.energy(self.bending, state.control_points)
         varied = self.layout.energy(variation, state.control_points)
-        share = min(_EVEN_SHARE * bent / max(varied, 1e-300), _LONGEST**2)
+        share = min(_EVEN_SHARE * bent / max(varied, 1e-300), _LONGEST_LENGTH**2)
         self.bending = _BENDING_SHARE * self.bending + share * variation
 
-    def moved(self, motion: SmallMotion) -> State:
+    def moved(self, motion: SmallMotion) -> FitState:
         """The nominal face after a small rigid motion; along the normal alone where the face is flat."""
         raster = self.raster
         fields = [motion.displacement(raster.position), np.cross(motion.turn, raster.tangent_u),
@@ -161,10 +128,10 @@ class RasterFit:
         if raster.flat:
             fields = [dot(f, raster.normal)[:, None] * raster.normal for f in fields]
         d, d_x, d_y = fields
-        return State(d, d_x, d_y)
+        return FitState(d, d_x, d_y)
 
-    def step(self, state: State, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
-             gate: float) -> State:
+    def step(self, state: FitState, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
+             gate: float) -> FitState:
         """Weigh the data about the current surface, and solve for the displacement they ask for.
 
         Parameters
@@ -175,28 +142,29 @@ class RasterFit:
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
         """
         graph = self._graph(state)
-        gate = max(gate, _NOISE_CUT * noise)
+        gate = max(gate, TUKEY_SIGMAS * noise)
         seen = self._cells(graph, self._parts(graph, data, noise, gate), gate)
         mean = np.divide(seen.moment, seen.weight, out=np.zeros_like(seen.weight), where=seen.weight > 0)
         certainty = np.where(graph.usable, seen.weight, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
         control_points = self._solve(row, target, certainty, stiffness)
-        new_noise = min(1.4826 * float(np.median(seen.spread)), _MOST_NOISIER * noise) if len(seen.spread) else noise
+        measured = MAD_TO_SIGMA * float(np.median(seen.spread)) if len(seen.spread) else noise
+        new_noise = min(measured, _LARGEST_NOISE_GROWTH * noise)
         return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
-    def look(self, state: State, layers: Layers, gate: float) -> tuple[Array, Array]:
+    def look(self, state: FitState, layers: Layers, gate: float) -> tuple[Array, Array]:
         """Heights of layers over the surface of a state, and their weights about it."""
-        _, residual, weight = self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * layers.noise))
+        _, residual, weight = self._weighed(self._graph(state), layers, max(gate, TUKEY_SIGMAS * layers.noise))
         return residual, weight
 
-    def field(self, state: State) -> SplineSurface:
+    def field(self, state: FitState) -> SplineSurface:
         """The displacement of a state as a spline in mm."""
         lattice = self.lattice
         return SplineSurface(lattice.knots_u, lattice.knots_v, state.control_points @ self.directions,
                              periodic_u=lattice.periodic_u, periodic_v=lattice.periodic_v)
 
-    def _graph(self, state: State) -> _Graph:
+    def _graph(self, state: FitState) -> _Graph:
         raster = self.raster
         if raster.flat:
             height, slope_x, slope_y = (dot(f, raster.normal) for f in (state.d, state.d_x, state.d_y))
@@ -232,8 +200,8 @@ class RasterFit:
         near = np.abs(residual) <= gate
         total, hits = (np.bincount(block, some, rows * columns) for some in (None, near))
         mean = np.bincount(block, np.where(near, residual, 0), rows * columns) / np.maximum(hits, 1)
-        off = noise * np.maximum(_OFF, 3 / np.sqrt(np.maximum(hits, 1)))
-        used = (hits >= (1 - _STRAY) * total) & (np.abs(mean) <= off)
+        off = noise * np.maximum(_OFF_SURFACE, 3 / np.sqrt(np.maximum(hits, 1)))
+        used = (hits >= (1 - _STRAY_SHARE) * total) & (np.abs(mean) <= off)
         return rim.part(np.flatnonzero(used[block] & near))
 
     def _parts(self, graph: _Graph, data: FacePoints | SurfaceCoordinates | Layers, noise: float, gate: float
@@ -251,7 +219,7 @@ class RasterFit:
         else:
             yield data, 1
 
-    def _cells(self, graph: _Graph, parts: Iterable[tuple[SurfaceCoordinates | Layers, int]], gate: float) -> _Cells:
+    def _cells(self, graph: _Graph, parts: Iterable[tuple[SurfaceCoordinates | Layers, int]], gate: float) -> _CellSums:
         """Weigh the data and sum them up cell by cell."""
         cells = len(self.raster.inside)
         sums, spread = np.zeros((3, cells)), []
@@ -262,7 +230,7 @@ class RasterFit:
                 total += np.bincount(cell, values, cells)
             spread.append(np.abs(residual[::every][weight[::every] > 0]))
         sums[:, self.ignored] = 0
-        return _Cells(sums[0], sums[1], sums[2], np.concatenate(spread) if spread else np.zeros(0))
+        return _CellSums(sums[0], sums[1], sums[2], np.concatenate(spread) if spread else np.zeros(0))
 
     def _weighed(self, graph: _Graph, data: SurfaceCoordinates | Layers, gate: float) -> tuple[Index, Array, Array]:
         """Material cell, residual and weight of scan points or layers."""
@@ -304,12 +272,12 @@ class RasterFit:
         matrix += stiffness * settings.stiffness * self.bending + settings.gauge * self.gauge
         values = (row * (data * target)[:, None]).reshape(*shape, k)
         right = self.layout.right_side(values, self.basis_u[0], self.basis_v[0])
-        return self.layout.control_points(solve(matrix, right))
+        return self.layout.control_points(solve_banded(matrix, right))
 
-    def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> State:
+    def _state(self, control_points: Array, weights: Array, points: int, noise: float) -> FitState:
         fields = []
         for a, b in ((0, 0), (1, 0), (0, 1)):
             values = tensor_product(self.basis_u[a], self.basis_v[b], control_points)
             fields.append(values.reshape(-1, values.shape[2]) @ self.directions)
         d, d_x, d_y = fields
-        return State(d, d_x, d_y, control_points, weights, points, noise)
+        return FitState(d, d_x, d_y, control_points, weights, points, noise)

@@ -16,13 +16,13 @@ from scipy.spatial.distance import cdist
 
 from ...arrays import Array, Index
 
-_LENGTHS = (0.06, 0.1, 0.16, 0.25, 0.4, 0.7)
+_TRIED_LENGTHS = (0.06, 0.1, 0.16, 0.25, 0.4, 0.7)
 """Tried for the length over which the field changes, relative to the extent of the places."""
-_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
+_TRIED_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 """Tried for the variance of the noise, relative to that of the field."""
-_LEAST = 1e-12
+_LEAST_VARIANCE = 1e-12
 """Variance in mm² of a part that has not moved at all."""
-_FEW = 400
+_LIKELIHOOD_SAMPLE = 400
 """Observations that the likelihood is computed from."""
 
 
@@ -51,7 +51,7 @@ class Observations:
 
 
 @dataclass(frozen=True)
-class Model:
+class FieldModel:
     """A field of one kind: ``smooth`` to all orders, or with two derivatives; bodies ``apart`` move by themselves.
 
     ``length`` in mm, ``variance`` of a component in mm², ``noise`` relative to it.
@@ -101,7 +101,7 @@ class Pose:
 class Field:
     """The field given the observations, and a pose that it is known to have."""
 
-    model: Model
+    model: FieldModel
     seen: Observations
     pose: Pose
     factor: Array
@@ -124,49 +124,49 @@ class Field:
         return np.concatenate([seen, _with_pose(self.model, self.pose, place, body).reshape(6, -1)])
 
 
-def _with_pose(model: Model, pose: Pose, place: Array, body: Index) -> Array:
+def _with_pose(model: FieldModel, pose: Pose, place: Array, body: Index) -> Array:
     """Between the pose and the components at places (n, 3): (6, n, 3)."""
     across = model.correlation(place, body, pose.place, pose.body)
     return np.matmul(across, pose.rows)
 
 
-def likeliest(seen: Observations) -> Model:
+def most_likely_model(seen: Observations) -> FieldModel:
     """The likeliest model of observations whose noise is to be found; its variance has a closed form."""
-    few = seen.take(np.flatnonzero(seen.noise > 0)[:_FEW])
+    few = seen.take(np.flatnonzero(seen.noise > 0)[:_LIKELIHOOD_SAMPLE])
     extent = float(np.linalg.norm(np.ptp(few.place, axis=0)))
-    best = -np.inf, Model(True, False, extent)
-    start = len(_LENGTHS) // 2, len(_NOISES) // 2
+    best = -np.inf, FieldModel(True, False, extent)
+    start = len(_TRIED_LENGTHS) // 2, len(_TRIED_NOISES) // 2
     for smooth, apart in product((True, False), (False, True) if np.ptp(few.body) else (False,)):
-        models = [Model(smooth, apart, length * extent) for length in _LENGTHS]
+        models = [FieldModel(smooth, apart, length * extent) for length in _TRIED_LENGTHS]
         between = cache(lambda length, models=models: models[length].between(few))
-        tried: dict[tuple[int, int], tuple[float, Model]] = {}
+        tried: dict[tuple[int, int], tuple[float, FieldModel]] = {}
         around = [start]
         while around:
             for length, noise in around:
-                model = replace(models[length], noise=_NOISES[noise])
+                model = replace(models[length], noise=_TRIED_NOISES[noise])
                 tried[length, noise] = _likelihood(model, few, between(length))
             start = max(tried, key=lambda at: tried[at][0])
-            around = [at for at in _beside(*start) if at not in tried]
+            around = [at for at in _grid_neighbours(*start) if at not in tried]
         best = max(best, tried[start], key=lambda found: found[0])
     return best[1]
 
 
-def _beside(length: int, noise: int) -> list[tuple[int, int]]:
+def _grid_neighbours(length: int, noise: int) -> list[tuple[int, int]]:
     """Neighbours of a model on the grid of lengths and noises."""
-    return list(product(range(max(0, length - 1), min(length + 2, len(_LENGTHS))),
-                        range(max(0, noise - 1), min(noise + 2, len(_NOISES)))))
+    return list(product(range(max(0, length - 1), min(length + 2, len(_TRIED_LENGTHS))),
+                        range(max(0, noise - 1), min(noise + 2, len(_TRIED_NOISES)))))
 
 
-def _likelihood(model: Model, seen: Observations, between: Array) -> tuple[float, Model]:
+def _likelihood(model: FieldModel, seen: Observations, between: Array) -> tuple[float, FieldModel]:
     """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance."""
     factor = cholesky(between + np.diag(model.noise * seen.noise), lower=True, check_finite=False)
     white = solve_triangular(factor, seen.value, lower=True, check_finite=False)
-    variance = max(float(white @ white) / len(white), _LEAST)
+    variance = max(float(white @ white) / len(white), _LEAST_VARIANCE)
     score = -0.5 * len(white) * np.log(variance) - np.log(np.diag(factor)).sum()
     return float(score), replace(model, variance=variance)
 
 
-def condition(model: Model, seen: Observations, pose: Pose, pose_variance: float) -> Field:
+def condition(model: FieldModel, seen: Observations, pose: Pose, pose_variance: float) -> Field:
     """The field of a model given the observations, and that its pose is zero within a variance in mm²."""
     with_seen = np.einsum("jnx,nx->jn", _with_pose(model, pose, seen.place, seen.body), seen.direction)
     with_pose = np.einsum("jqx,iqx->ji", _with_pose(model, pose, pose.place, pose.body), pose.rows)

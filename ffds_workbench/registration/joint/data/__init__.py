@@ -4,11 +4,11 @@
 (where the scan ends at an edge).
 """
 from .borders import Borders, EdgeSides, NearEdges, edge_sides, find_borders, find_near_edges
-from .cell_heights import CellValues, medians, nothing, tukey_means
+from .cell_heights import CellHeights, median_heights, no_heights, tukey_mean_heights
 from .correspondence import Correspondence, correspond, make_frames, trim_margin
 from .scan_statistics import ScanStatistics, scan_statistics
 from .scatter import Scatter, patch_sums
 
-__all__ = ["Borders", "CellValues", "Correspondence", "EdgeSides", "NearEdges", "ScanStatistics", "Scatter",
-           "correspond", "edge_sides", "find_borders", "find_near_edges", "make_frames", "medians", "nothing",
-           "patch_sums", "scan_statistics", "trim_margin", "tukey_means"]
+__all__ = ["Borders", "CellHeights", "Correspondence", "EdgeSides", "NearEdges", "ScanStatistics", "Scatter",
+           "correspond", "edge_sides", "find_borders", "find_near_edges", "make_frames", "median_heights",
+           "no_heights", "patch_sums", "scan_statistics", "trim_margin", "tukey_mean_heights"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array, Index
-from ...robust_weights import TUKEY, tukey
+from ...robust_weights import TUKEY_SIGMAS, tukey
 from .correspondence import Correspondence
 from .scatter import Scatter, model_noise, of_cells, patch_sums, sensor_noise, spread
 
@@ -15,7 +15,7 @@ _MEDIAN_EFFICIENCY = 0.64
 
 
 @dataclass(frozen=True)
-class CellValues:
+class CellHeights:
     """Heights of the scan above the current surface, cell by cell.
 
     Attributes
@@ -32,12 +32,12 @@ class CellValues:
     scatter: Scatter
 
 
-def nothing(cells: int, scatter: Scatter) -> CellValues:
+def no_heights(cells: int, scatter: Scatter) -> CellHeights:
     """The values before anything was matched."""
-    return CellValues(np.zeros(cells), np.zeros(cells), np.zeros(cells), scatter)
+    return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), scatter)
 
 
-def medians(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int) -> CellValues:
+def median_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int) -> CellHeights:
     """Median height of every cell, weighted 0.64 n/s² (the median's efficiency on Gaussian noise) with the scale s of
     the loss."""
     cells = len(face_of_span) * per_span
@@ -51,11 +51,11 @@ def medians(found: Correspondence, scatter: Scatter, face_of_span: Index, per_sp
     scale = scatter.loss[face_of_span[at // per_span]]
     weight[at] = np.where(count < 3, 1.0, _MEDIAN_EFFICIENCY) * count / scale**2
     counts[at] = count
-    return CellValues(result, weight, counts, scatter)
+    return CellHeights(result, weight, counts, scatter)
 
 
-def tukey_means(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int,
-                least: tuple[float, float]) -> CellValues:
+def tukey_mean_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int,
+                least: tuple[float, float]) -> CellHeights:
     """Mean height of every cell with Tukey's biweight about the current surface, weighted n/(σ² + N τ²).
 
     The N points of a patch of cells share the error τ of the model. Noise σ and τ are measured anew, ``least`` are the
@@ -64,7 +64,7 @@ def tukey_means(found: Correspondence, scatter: Scatter, face_of_span: Index, pe
     cells = len(face_of_span) * per_span
     face = np.repeat(face_of_span, per_span)
     scale = np.maximum(scatter.loss, scatter.of_face)[face[found.cell]]
-    robust = tukey(found.height, TUKEY * scale)
+    robust = tukey(found.height, TUKEY_SIGMAS * scale)
     total = np.bincount(found.cell, robust, cells).astype(float)
     height = np.bincount(found.cell, robust * found.height, cells).astype(float) / np.maximum(total, 1e-9)
     height[total == 0] = 0.0
@@ -78,4 +78,4 @@ def tukey_means(found: Correspondence, scatter: Scatter, face_of_span: Index, pe
     about = np.minimum(scatter.loss, spread(np.abs(found.height), face[found.cell], len(sensor), 0.9))
     shared = of_cells(patch_sums(total.reshape(shape)), int(np.sqrt(per_span))).ravel()
     weight = total / (sensor[face] ** 2 + shared * model[face] ** 2)
-    return CellValues(height, weight, count, Scatter(sensor, model, about))
+    return CellHeights(height, weight, count, Scatter(sensor, model, about))

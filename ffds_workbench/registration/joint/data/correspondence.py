@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..surfaces import Jet, Lattices, Places, normals
+from ..surfaces import Jet, Lattices, SpanGrid, normals
 
 _WITHIN_CELL = 0.75
-_FEW = 0.002
+_NEGLIGIBLE_SHARE = 0.002
 """Share of the points up to which those on the wrong side are left out rather than matched again."""
 
 
@@ -60,7 +60,7 @@ class Correspondence:
     nearest: Index
 
 
-def make_frames(lattices: Lattices, cells: Places, jet: Jet, margin: Array, distance: Array) -> Frames:
+def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, distance: Array) -> Frames:
     """Frames of all cells within the trims.
 
     ``distance`` (spans, k) is that from the border in mm, negative outside; cells nearer than ``margin`` (spans,) to it
@@ -89,7 +89,7 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
         tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
         nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
         if facing is not None:
-            nearest = _on_own_side(points, facing, frames, nearest, gate)
+            nearest = _rematch_wrong_side(points, facing, frames, nearest, gate)
     point = np.flatnonzero(nearest < len(frames.position))
     row = nearest[point]
     offset = points[point] - frames.position[row]
@@ -102,14 +102,14 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
 
 
-def _on_own_side(points: Array, facing: Array, frames: Frames, nearest: Index, gate: float) -> Index:
+def _rematch_wrong_side(points: Array, facing: Array, frames: Frames, nearest: Index, gate: float) -> Index:
     """``nearest`` with the points that face away from their cell matched again, by place and normal together."""
     none = len(frames.position)
     cosine = np.einsum("nx,nx->n", facing, np.append(frames.normal, np.zeros((1, 3)), axis=0)[nearest])
     wrong = np.flatnonzero(cosine < 0)
     result = nearest.copy()
     result[wrong] = none
-    if len(wrong) > _FEW * len(points):
+    if len(wrong) > _NEGLIGIBLE_SHARE * len(points):
         # Opposite sides are 4 gates apart, farther than anything is looked for.
         tree = cKDTree(np.hstack([frames.position, 2 * gate * frames.normal]), balanced_tree=False, compact_nodes=False)
         result[wrong] = tree.query(np.hstack([points[wrong], 2 * gate * facing[wrong]]),

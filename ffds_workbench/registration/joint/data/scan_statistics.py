@@ -9,10 +9,10 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array
 
-_NEIGHBOURS = 16
-_SLABS = (0.2, 0.4, 0.6, 0.8)
+_PLANE_NEIGHBOURS = 16
+_SLAB_QUANTILES = (0.2, 0.4, 0.6, 0.8)
 _SLAB_POINTS = 5000
-_PROBES = 200
+_PROBES_PER_SLAB = 200
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class ScanStatistics:
 def scan_statistics(scan: Array) -> ScanStatistics:
     """Statistics of a scan (n, 3), from points in the middle of a few slabs across it, where it keeps its density."""
     across = scan[:, int(np.argmax(np.ptp(scan, axis=0)))]
-    starts = np.unique([max(0, int(f * len(scan)) - _SLAB_POINTS // 2) for f in _SLABS])
+    starts = np.unique([max(0, int(f * len(scan)) - _SLAB_POINTS // 2) for f in _SLAB_QUANTILES])
     bounds = np.unique(np.minimum([starts, starts + _SLAB_POINTS], len(scan) - 1))
     order = np.argpartition(across, bounds)
     slabs = [order[start : start + _SLAB_POINTS] for start in starts]
@@ -46,8 +46,8 @@ def scan_statistics(scan: Array) -> ScanStatistics:
 def _slab_statistics(slab: Array) -> Array:
     """Density and noise around probes in the inner half of a slab: (2, probes)."""
     inner = np.arange(len(slab) // 4, max(3 * len(slab) // 4, len(slab) // 4 + 1))
-    probes = slab[inner[:: max(1, len(inner) // _PROBES)]]
-    count = min(_NEIGHBOURS, len(slab))
+    probes = slab[inner[:: max(1, len(inner) // _PROBES_PER_SLAB)]]
+    count = min(_PLANE_NEIGHBOURS, len(slab))
     distance, near = cKDTree(slab).query(probes, k=count)
     local = slab[near] - slab[near].mean(axis=1, keepdims=True)
     smallest = np.linalg.eigvalsh(np.matmul(local.swapaxes(1, 2), local))[:, 0]

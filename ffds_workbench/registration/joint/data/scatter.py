@@ -15,12 +15,12 @@ from scipy.special import ndtri
 from ...arrays import Array, Index
 from ...robust_weights import quantile
 
-PATCHES = 2
+PATCHES_PER_SPAN = 2
 """Patches per direction of a span (theory: two between neighbouring knots see what a cubic spline cannot follow)."""
-_SHRINK = 50.0
+_PRIOR_COUNT = 50.0
 """Differences that the whole part counts for beside those of a face (unit: some spans)."""
-_FEWEST = 20
-_CLIP = 20.0
+_LEAST_DIFFERENCES = 20
+_LARGEST_EXCESS = 20.0
 """Excess over its upper quartile from which a squared difference is cut: that of normal ones is below it once in ten
 thousand (theory)."""
 
@@ -47,16 +47,16 @@ class Scatter:
 
 
 def patch_sums(cells: Array) -> Array:
-    """Sums over patches of the cells (spans, k): (spans, PATCHES, PATCHES)."""
+    """Sums over patches of the cells (spans, k): (spans, PATCHES_PER_SPAN, PATCHES_PER_SPAN)."""
     per_span = int(np.sqrt(cells.shape[1]))
-    member = np.zeros((PATCHES, per_span))
-    member[(np.arange(per_span) * PATCHES) // per_span, np.arange(per_span)] = 1.0
+    member = np.zeros((PATCHES_PER_SPAN, per_span))
+    member[(np.arange(per_span) * PATCHES_PER_SPAN) // per_span, np.arange(per_span)] = 1.0
     return np.einsum("pi,sij,qj->spq", member, cells.reshape(-1, per_span, per_span), member, optimize=True)
 
 
 def of_cells(patches: Array, per_span: int) -> Array:
-    """The value of its patch (spans, PATCHES, PATCHES) for every cell: (spans, k)."""
-    of = (np.arange(per_span) * PATCHES) // per_span
+    """The value of its patch (spans, PATCHES_PER_SPAN, PATCHES_PER_SPAN) for every cell: (spans, k)."""
+    of = (np.arange(per_span) * PATCHES_PER_SPAN) // per_span
     return patches[:, of[:, None], of].reshape(len(patches), -1)
 
 
@@ -69,7 +69,7 @@ def sensor_noise(height: Array, cell: Index, mean: Array, count: Array, face: In
     """
     own = count[cell]
     several = np.flatnonzero(own > 1)
-    if len(several) < _FEWEST:
+    if len(several) < _LEAST_DIFFERENCES:
         return known
     own = own[several]
     off = np.abs(height[several] - mean[cell[several]]) * np.sqrt(own / (own - 1))
@@ -87,7 +87,7 @@ def spread(off: Array, face: Index, faces: int, share: float) -> Array:
     for k in np.flatnonzero(np.diff(bounds)):
         part = off[order[bounds[k] : bounds[k + 1]]]
         own = quantile(part, share) / normal
-        result[k] = np.sqrt((len(part) * own**2 + _SHRINK * whole**2) / (len(part) + _SHRINK))
+        result[k] = np.sqrt((len(part) * own**2 + _PRIOR_COUNT * whole**2) / (len(part) + _PRIOR_COUNT))
     return result
 
 
@@ -111,8 +111,8 @@ def model_noise(height: Array, total: Array, face_of_span: Index, sensor: Array)
     faces = len(sensor)
     if not len(values):
         return np.zeros(faces)
-    values = np.minimum(values, _CLIP * max(float(np.quantile(values, 0.75)), 0.0) + 1e-18)
+    values = np.minimum(values, _LARGEST_EXCESS * max(float(np.quantile(values, 0.75)), 0.0) + 1e-18)
     whole = values.mean()
     count = np.bincount(owner, minlength=faces)
     own = np.bincount(owner, weights=values, minlength=faces)
-    return np.sqrt(np.maximum((own + _SHRINK * max(whole, 0.0)) / (count + _SHRINK), 0.0))
+    return np.sqrt(np.maximum((own + _PRIOR_COUNT * max(whole, 0.0)) / (count + _PRIOR_COUNT), 0.0))

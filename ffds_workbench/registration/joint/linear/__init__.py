@@ -3,6 +3,6 @@
 inverse) and `dissection` (the elimination order).
 """
 from .cholesky import FrontCholesky
-from .system import Pattern, solve
+from .system import Pattern, solve_normal_equations
 
-__all__ = ["FrontCholesky", "Pattern", "solve"]
+__all__ = ["FrontCholesky", "Pattern", "solve_normal_equations"]

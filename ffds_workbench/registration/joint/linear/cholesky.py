@@ -124,22 +124,36 @@ class FrontCholesky:
         """The blocks of A⁻¹ on the pattern, (n, 3, 3)."""
         layout = self.layout
         flat = np.empty(layout.offset[-1])
-        inverse: list[Array] = [np.empty(0)] * len(layout.fronts)
+        last_child = {front.parent: number for number, front in reversed(list(enumerate(layout.fronts)))}
+        beyond: dict[int, Array] = {}
         for number in range(len(layout.fronts) - 1, -1, -1):
-            front, k, size = layout.fronts[number], layout.own[number], layout.sizes[number]
-            z = inverse[number] = np.empty((size, size), order="F")
-            upper = np.triu(lapack.dpotri(self.own[number])[0])
-            z[:k, :k] = upper + upper.T
-            np.fill_diagonal(z[:k, :k], upper.diagonal())
-            if front.parent >= 0:
-                nodes = _triple(front.in_parent)
-                z[k:, k:] = inverse[front.parent][np.ix_(nodes, nodes)]
+            parent, k = layout.fronts[number].parent, layout.own[number]
+            rows, upper = layout.rows(flat, number), np.triu(lapack.dpotri(self.own[number])[0])
+            rows[:, :k] = upper + upper.T
+            np.fill_diagonal(rows[:, :k], upper.diagonal())
+            if parent >= 0:
+                border = self._inverse_beyond(flat, number, beyond.get(parent))
                 reach = blas.dtrsm(1.0, self.own[number], self.border[number])
-                z[:k, k:] = -reach @ z[k:, k:]
-                z[:k, :k] -= z[:k, k:] @ reach.T
-                z[k:, :k] = z[:k, k:].T
-            layout.rows(flat, number)[:] = z[:k]
+                rows[:, k:] = blas.dsymm(-1.0, border, reach, side=1)
+                rows[:, :k] -= rows[:, k:] @ reach.T
+                if number in last_child:
+                    beyond[number] = border
+                if last_child[parent] == number:
+                    beyond.pop(parent, None)
         return layout.blocks(flat)
+
+    def _inverse_beyond(self, flat: Array, number: int, beyond_parent: Array | None) -> Array:
+        """The inverse among the border of a front, (b, b), on and above the diagonal, from that of its parent."""
+        layout = self.layout
+        parent, size = layout.fronts[number].parent, layout.sizes[number] - layout.own[number]
+        result = np.empty((size, size), order="F")
+        rows, k = layout.rows(flat, parent), layout.own[parent]
+        own, beyond = layout.parent_runs[number]
+        _take(result, rows[:, :k], own, own)
+        _take(result, rows[:, k:], own, beyond)
+        if beyond_parent is not None:
+            _take(result, beyond_parent, beyond, beyond)
+        return result
 
 
 def _add(target: Array, left: Array, rows: _Runs, columns: _Runs) -> None:
@@ -147,6 +161,13 @@ def _add(target: Array, left: Array, rows: _Runs, columns: _Runs) -> None:
     for here, there in rows:
         for other_here, other_there in columns:
             target[there, other_there] += left[here, other_here]
+
+
+def _take(target: Array, source: Array, rows: _Runs, columns: _Runs) -> None:
+    """The other way round: what `_add` would add to."""
+    for here, there in rows:
+        for other_here, other_there in columns:
+            target[here, other_here] = source[there, other_there]
 
 
 def _runs(places: Index, own: int) -> tuple[_Runs, _Runs]:

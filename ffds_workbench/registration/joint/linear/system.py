@@ -10,7 +10,8 @@ from ..surfaces import Lattices
 from .cholesky import FrontCholesky, FrontLayout
 from .dissection import dissect
 
-_CG_STEPS = 25
+_CG_STEPS = 12
+"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
 _CG_TOLERANCE = 3e-3
 
 
@@ -72,7 +73,8 @@ class Pattern:
         return bsr_matrix((blocks, self.indices, self.indptr), shape=(3 * self.count, 3 * self.count))
 
 
-def solve(pattern: Pattern, blocks: Array, right: Array, factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
+def solve_normal_equations(pattern: Pattern, blocks: Array, right: Array,
+                           factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
     """Solve the normal equations; with a factor of a near matrix by conjugate gradients, else (or if slow) anew.
 
     Parameters

@@ -6,15 +6,14 @@ import numpy as np
 from scipy.sparse import csr_matrix, vstack
 from scipy.spatial import cKDTree
 
-from ..part import JointPart
-from ..surfaces import Lattices, Places, normals, sample
+from ..surfaces import JointPart, Lattices, SpanGrid, normals, places_on_faces
 from .sheet_pairs import parameters
 
-_TOUCHING = 0.05
-_WITHIN = 0.75
+_CONTACT_GAP = 0.05
+_WITHIN_CELL = 0.75
 
 
-def contact_rows(part: JointPart, lattices: Lattices, cells: Places) -> csr_matrix:
+def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_matrix:
     """Rows d_a − d_b, equal weights adding up to one per pair of solids: (contacts, controls).
 
     Contacts are places along the edges of one solid that lie within 0.05 mm of a face of another one.
@@ -38,12 +37,12 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: Places) -> csr_matr
         metric = np.einsum("nax,nbx->nab", tangents, tangents)
         step = np.linalg.solve(metric, np.einsum("nax,nx->na", tangents, offset)[:, :, None])[:, :, 0]
         size = lattices.step[span] / np.sqrt(cells.inside.shape[1])
-        touching = ((np.abs(np.einsum("nx,nx->n", offset, normal[span, place])) < _TOUCHING)
-                    & (np.abs(step) < _WITHIN * size).all(axis=1))
+        touching = ((np.abs(np.einsum("nx,nx->n", offset, normal[span, place])) < _CONTACT_GAP)
+                    & (np.abs(step) < _WITHIN_CELL * size).all(axis=1))
         there = parameters(lattices, cells, span, place) + step
         for neighbour in np.unique(owner[face[other[touching]]]):
             which = np.flatnonzero(touching & (owner[face[other]] == neighbour))
-            here = sample(part.faces, lattices, face[other[which]], uv[other[which]])
-            opposite = sample(part.faces, lattices, lattices.face_of_span[span[which]], there[which])
+            here = places_on_faces(part.faces, lattices, face[other[which]], uv[other[which]])
+            opposite = places_on_faces(part.faces, lattices, lattices.face_of_span[span[which]], there[which])
             rows.append((here.matrix(lattices.count) - opposite.matrix(lattices.count)) / np.sqrt(len(which)))
     return vstack(rows).tocsr()

@@ -13,31 +13,49 @@ from numpy.typing import NDArray
 from scipy.sparse import bsr_matrix, csr_matrix, diags, vstack
 
 from ...arrays import Array, Index
-from ..part import JointPart
 from ..settings import JointSettings
-from ..surfaces import Lattices, Samples, sample
+from ..surfaces import FacePlaces, JointPart, Lattices, places_on_faces
 from .sheet_pairs import SheetPairs
 
-_FROZEN = 1e9
-_PRIOR_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
-_SMOOTHEST = 1e-9
+_FROZEN_WEIGHT = 1e9
+_POSE_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
+_METRIC_RIDGE = 1e-9
 _SMOOTH_ANGLE = 0.2
 """Angle in rad up to which faces count as one smooth surface, which stays smooth however it deforms."""
+_POLE = 0.01
+"""Share of the largest |S_u × S_v| along an edge below which it is that of a pole, where a normal turns anyhow with the
+least displacement. Theory: it falls to zero there in proportion to the distance; from 1e-6 to 0.1 nothing changes."""
 
 
 @dataclass(frozen=True)
-class EdgeSamples:
-    """Places along all edges that two faces share: ``first`` on one face, ``second`` on the other, edge by edge."""
+class SharedEdgePlaces:
+    """n places along all edges that two faces share, edge by edge.
 
-    first: Samples
-    second: Samples
+    Attributes
+    ----------
+    first, second : the places on one face and on the other
+    edge : (n,) number of the edge
+    length : (n,) of the edge in mm that a place stands for
+    direction : (n, 3) unit direction of the edge
+    left : (2, n) whether the first and the second face lie left of it, seen from outside
+    angled : (n,) whether both faces have a normal there, and so an angle
+    """
+
+    first: FacePlaces
+    second: FacePlaces
     edge: Index
     length: Array
     direction: Array
+    left: NDArray[np.bool_]
+    angled: NDArray[np.bool_]
 
     def along(self, place: Array) -> Array:
         """Unit directions of the edges through places (n, 3) on them."""
         return directions(place, self.edge)
+
+    def take(self, which: NDArray[np.bool_]) -> SharedEdgePlaces:
+        return SharedEdgePlaces(self.first.take(which), self.second.take(which), self.edge[which], self.length[which],
+                                self.direction[which], self.left[:, which], self.angled[which])
 
 
 @dataclass(frozen=True)
@@ -49,6 +67,7 @@ class Couplings:
     scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
     shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
     pairs, edges : the places that are coupled
+    hinges : the places on edges where there is an angle, the samples of what follows
     pair_normal : (pairs, 3) nominal normal of the sheets
     angle : (samples,) nominal angle of the edges in rad
     thickness_rows : (pairs, controls) d_back − d_front
@@ -62,7 +81,8 @@ class Couplings:
     scalar: csr_matrix
     shear: csr_matrix
     pairs: SheetPairs
-    edges: EdgeSamples
+    edges: SharedEdgePlaces
+    hinges: SharedEdgePlaces
     pair_normal: Array
     angle: Array
     thickness_rows: csr_matrix
@@ -109,7 +129,7 @@ class Couplings:
 
     def angle_change(self, control_points: Array) -> Array:
         """Change of the angles of the edges from the nominal ones, (samples,) in rad."""
-        change = _angle(self.edges, control_points) - self.angle
+        change = _angle(self.hinges, control_points) - self.angle
         return np.mod(change + np.pi, 2 * np.pi) - np.pi
 
     def measured_thickness(self, control_points: Array) -> Array:
@@ -139,24 +159,25 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     # One pair is one independent statement per square of the thickness; closer ones share it.
     thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
                         / np.maximum(settings.thickness_sigma, pairs.give) ** 2)
-    dihedral_rows = _dihedral_rows(edges, lattices)
-    dihedral_weight = edges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
+    hinges = edges.take(edges.angled)
+    dihedral_rows = _dihedral_rows(hinges, lattices)
+    dihedral_weight = hinges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, settings, information)))
     shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
-    angle = _angle(edges, still)
+    angle = _angle(hinges, still)
     sharp = np.abs(angle) > _SMOOTH_ANGLE
     smooth, dihedral = (_normal_matrix(dihedral_rows.tocsr()[which].tobsr((1, 3)), dihedral_weight[which])
                         for which in (~sharp, sharp))
-    return Couplings(scalar.tocsr(), shear, pairs, edges, normal, angle, thickness_rows, thickness_weight,
+    return Couplings(scalar.tocsr(), shear, pairs, edges, hinges, normal, angle, thickness_rows, thickness_weight,
                      smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
 
 def pose_weight(settings: JointSettings, information: float) -> float:
     """What is known of the pose of a solid before it is seen, in 1/mm²."""
-    return max(settings.pose_sigma**-2, _PRIOR_SHARE * information)
+    return max(settings.pose_sigma**-2, _POSE_SHARE * information)
 
 
 def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
@@ -170,7 +191,7 @@ def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, inform
     for solid in part.solids:
         own = np.isin(lattices.face_of_control, solid)
         weight[own] = prior / max(own.sum(), 1)
-    weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN
+    weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN_WEIGHT
     return weight
 
 
@@ -193,10 +214,10 @@ def _normal_matrix(rows: bsr_matrix, weight: Array) -> bsr_matrix:
     return rows.T @ bsr_matrix((weighted, rows.indices, rows.indptr), shape=rows.shape)
 
 
-def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
+def _edge_samples(part: JointPart, lattices: Lattices) -> SharedEdgePlaces:
     face: tuple[list[Index], list[Index]] = ([], [])
     uv: tuple[list[Array], list[Array]] = ([], [])
-    edge, length, direction = [], [], []
+    edge, length, direction, left = [], [], [], []
     for number, shared in enumerate(part.edges):
         if shared.degenerate or len(shared.faces) < 2:
             continue
@@ -209,12 +230,24 @@ def _edge_samples(part: JointPart, lattices: Lattices) -> EdgeSamples:
             edge.append(np.full(len(step), number))
             length.append(step)
             direction.append(along / np.maximum(step, 1e-12)[:, None])
+            left.append(np.repeat([[shared.left[0]], [shared.left[other]]], len(step), axis=1))
     none = [np.zeros((0, 2))]
-    both = sample(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[0], *face[1]]),
-                  np.concatenate(none + uv[0] + uv[1]))
-    first, second = np.arange(len(both)).reshape(2, -1)
-    return EdgeSamples(both.take(first), both.take(second), np.concatenate([np.zeros(0, dtype=np.intp), *edge]),
-                       np.concatenate([np.zeros(0), *length]), np.concatenate([np.zeros((0, 3)), *direction]))
+    both = places_on_faces(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[0], *face[1]]),
+                           np.concatenate(none + uv[0] + uv[1]))
+    first, second = (both.take(half) for half in np.arange(len(both)).reshape(2, -1))
+    edges = np.concatenate([np.zeros(0, dtype=np.intp), *edge])
+    return SharedEdgePlaces(first, second, edges, np.concatenate([np.zeros(0), *length]),
+                            np.concatenate([np.zeros((0, 3)), *direction]),
+                            np.concatenate([np.zeros((2, 0), dtype=bool), *left], axis=1),
+                            _has_normal(first, edges) & _has_normal(second, edges))
+
+
+def _has_normal(side: FacePlaces, edge: Index) -> NDArray[np.bool_]:
+    """Whether a face has a normal at places on edges: at the pole of a sphere, say, S_u × S_v vanishes: (n,)."""
+    area = np.linalg.norm(np.cross(side.nominal[1], side.nominal[2]), axis=1)
+    largest = np.zeros(edge.max(initial=-1) + 1)
+    np.maximum.at(largest, edge, area)
+    return np.asarray(area > _POLE * largest[edge])
 
 
 def _pole_rows(part: JointPart, lattices: Lattices) -> csr_matrix:
@@ -223,19 +256,19 @@ def _pole_rows(part: JointPart, lattices: Lattices) -> csr_matrix:
     for shared in part.edges:
         if shared.degenerate:
             for face, uv in zip(shared.faces, shared.uv, strict=True):
-                row = sample(part.faces, lattices, np.full(len(uv), face), uv).matrix(lattices.count)
+                row = places_on_faces(part.faces, lattices, np.full(len(uv), face), uv).matrix(lattices.count)
                 blocks.append(row[1:] - row[:-1])
     return vstack(blocks).tocsr()
 
 
-def _angle(edges: EdgeSamples, control_points: Array) -> Array:
+def _angle(edges: SharedEdgePlaces, control_points: Array) -> Array:
     """Signed angle between the outward normals about the edge's direction: (samples,)."""
     first, second = edges.first.normals(control_points), edges.second.normals(control_points)
     sine = np.einsum("nx,nx->n", np.cross(first, second), edges.direction)
     return np.arctan2(sine, np.einsum("nx,nx->n", first, second))
 
 
-def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> bsr_matrix:
+def _dihedral_rows(edges: SharedEdgePlaces, lattices: Lattices) -> bsr_matrix:
     """Change of `_angle` by the control points, to first order about the nominal shape: (samples, 3 controls).
 
     A face turns about the edge's direction t by n·∂d/∂m, with m = t × n the direction in the face across the edge.
@@ -246,7 +279,7 @@ def _dihedral_rows(edges: EdgeSamples, lattices: Lattices) -> bsr_matrix:
         across = np.cross(edges.direction, normal)
         tangents = side.tangents(np.zeros((lattices.count, 3)))
         metric = np.einsum("anx,bnx->nab", tangents, tangents)
-        metric += _SMOOTHEST * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(2)
+        metric += _METRIC_RIDGE * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(2)
         slope = np.linalg.solve(metric, np.einsum("anx,nx->na", tangents, across)[:, :, None])[:, :, 0]
         derivative = np.einsum("na,anc->nc", slope, side.weights[1:])
         values = derivative[:, :, None] * normal[:, None, :]

@@ -9,15 +9,15 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
-from ..surfaces import Lattices, Places, Samples, normals, sample
+from ..surfaces import FacePlaces, Lattices, SpanGrid, normals, places_on_faces
 
 _NORMAL_SCALE = 20.0
 """Millimetres that a unit of difference between normals counts for when opposite places are looked for."""
-_OPPOSITE = -0.95
-_LEAST_SHARE = 0.5
+_OPPOSITE_COSINE = -0.95
+_LEAST_SHEET_SHARE = 0.5
 _LEAST_SLENDERNESS = 5.0
 _SAME_THICKNESS = 0.08
-_GIVE = 0.003
+_MASSIVE_GIVE = 0.003
 """Change of the distance between opposite faces of a massive part, relative to it: they move together."""
 
 
@@ -35,8 +35,8 @@ class SheetPairs:
     of_face : (faces,) nominal thickness in mm of the sheet whose skin the face is, 0 elsewhere
     """
 
-    front: Samples
-    back: Samples
+    front: FacePlaces
+    back: FacePlaces
     thickness: Array
     area: Array
     give: Array
@@ -44,30 +44,30 @@ class SheetPairs:
     of_face: Array
 
 
-def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: Places,
-               gauss: Places, area: Array) -> SheetPairs:
+def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: SpanGrid,
+               gauss: SpanGrid, area: Array) -> SheetPairs:
     """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material."""
     found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []
     for solid, pairs in zip(solids, found, strict=True):
         thickness, share, keep = _dominant(pairs, area[np.isin(lattices.face_of_span, solid)].sum())
-        is_sheet = share >= _LEAST_SHARE
+        is_sheet = share >= _LEAST_SHEET_SHARE
         thickness_of_solid.append(thickness if is_sheet else 0.0)
         kept.append(np.column_stack([pairs[keep], np.zeros(keep.sum())]) if is_sheet
-                    else np.column_stack([pairs, _GIVE * pairs[:, 6]]))
+                    else np.column_stack([pairs, _MASSIVE_GIVE * pairs[:, 6]]))
         if is_sheet:
             of_face[np.unique(pairs[keep][:, :2].astype(int))] = thickness
     table = np.concatenate([np.zeros((0, 9)), *kept])
     table = table[table[:, 0] < table[:, 1]]
-    both = sample(faces, lattices, table[:, :2].T.astype(np.intp).ravel(),
-                  np.concatenate([table[:, 2:4], table[:, 4:6]]))
+    both = places_on_faces(faces, lattices, table[:, :2].T.astype(np.intp).ravel(),
+                           np.concatenate([table[:, 2:4], table[:, 4:6]]))
     front, back = np.arange(len(both)).reshape(2, -1)
     return SheetPairs(both.take(front), both.take(back), table[:, 6], table[:, 7], table[:, 8],
                       tuple(thickness_of_solid), of_face)
 
 
-def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, area: Array) -> Array:
+def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array) -> Array:
     """Rows face, opposite face, u, v, opposite u, v, distance, area of one solid."""
     spans = np.flatnonzero(np.isin(lattices.face_of_span, solid))
     cell_normals = normals(cells.nominal, cells.outward)[0]
@@ -89,14 +89,14 @@ def _pairs_of(solid: Index, lattices: Lattices, cells: Places, gauss: Places, ar
     metric = np.einsum("nax,nbx->nab", tangents, tangents)
     step = np.linalg.solve(metric, np.einsum("nax,nx->na", tangents, hit)[:, :, None])[:, :, 0]
     per_cell = lattices.step[span[near]] / np.sqrt(cells.inside.shape[1])
-    good = (cosine < _OPPOSITE) & (depth > 0) & (np.abs(step / per_cell) < 1.0).all(axis=1)
+    good = (cosine < _OPPOSITE_COSINE) & (depth > 0) & (np.abs(step / per_cell) < 1.0).all(axis=1)
     uv, uv_back = parameters(lattices, gauss, own_span, own), parameters(lattices, cells, span[near], cell[near])
     face = lattices.face_of_span
     table = np.column_stack([face[own_span], face[span[near]], uv, uv_back + step, depth, area[own_span, own]])
     return table[good & (table[:, 0] != table[:, 1])]
 
 
-def parameters(lattices: Lattices, places: Places, span: Index, place: Index) -> Array:
+def parameters(lattices: Lattices, places: SpanGrid, span: Index, place: Index) -> Array:
     """(u, v) of places given by span and number within the span: (n, 2)."""
     uv = np.zeros((len(span), 2))
     faces = lattices.face_of_span[span]

@@ -11,17 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array
-from ..surfaces import Lattices, Places, normals
+from ..surfaces import Lattices, SpanGrid, normals
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
-GAUSS_PLACES = (_NODES + 1) / 2
-_PAIRS = ((0, 0), (0, 1), (1, 1))
+_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
+GAUSS_PLACES = (_GAUSS_NODES + 1) / 2
+_TENSOR_PAIRS = ((0, 0), (0, 1), (1, 1))
 COMPONENTS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 """Components of a symmetric matrix of x, y and z."""
-_NORM = np.array([1.0, np.sqrt(2.0), 1.0])
+_TENSOR_NORM = np.array([1.0, np.sqrt(2.0), 1.0])
 SLIDING = 0.3
 """Weight of what bends within the surface, which is no bending of it, beside what bends across it."""
-_OUTSIDE = 1e-3
+_OUTSIDE_WEIGHT = 1e-3
 """Weight of the integral outside the trims, where it only has to keep the lattice smooth."""
 
 
@@ -41,7 +41,7 @@ class Stiffness:
     tangent : (spans, k, 2, 3) e₁, e₂
     """
 
-    places: Places
+    places: SpanGrid
     area: Array
     weight: Array
     slope: Array
@@ -101,8 +101,9 @@ class Stiffness:
         tangent = self.tangent + np.matmul(self.slope, gathered)
         second = self.curvature[..., None] * self.normal[:, :, None, :] + np.matmul(self.hessian, gathered)
         t = thickness[:, None, None]
-        metric = np.stack([np.einsum("skx,skx->sk", tangent[:, :, i], tangent[:, :, j]) for i, j in _PAIRS], axis=2)
-        first = (metric - np.array([1.0, 0.0, 1.0])) * _NORM
+        metric = np.stack([np.einsum("skx,skx->sk", tangent[:, :, i], tangent[:, :, j]) for i, j in _TENSOR_PAIRS],
+                          axis=2)
+        first = (metric - np.array([1.0, 0.0, 1.0])) * _TENSOR_NORM
         form = np.einsum("skpx,skx->skp", second, normal)
         change = _third_form(form, metric) - _third_form(self.curvature, np.broadcast_to([1.0, 0.0, 1.0], metric.shape))
         return np.asarray(0.5 * (first + t * (form - self.curvature) + 0.25 * t**2 * change))
@@ -123,9 +124,9 @@ class Stiffness:
         """Derivative of `strain` by x, y and z of the control points: (spans, k, 3, 3, 16)."""
         tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])
         rows = (0.5 * thickness[:, None, None] * normal)[:, :, None, :, None] * self.hessian[:, :, :, None, :]
-        for p, (i, j) in enumerate(_PAIRS):
-            rows[:, :, p] += 0.5 * _NORM[p] * tangent[:, :, i, :, None] * self.slope[:, :, j, None, :]
-            rows[:, :, p] += 0.5 * _NORM[p] * tangent[:, :, j, :, None] * self.slope[:, :, i, None, :]
+        for p, (i, j) in enumerate(_TENSOR_PAIRS):
+            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, i, :, None] * self.slope[:, :, j, None, :]
+            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, j, :, None] * self.slope[:, :, i, None, :]
         return rows
 
 
@@ -140,7 +141,7 @@ def _third_form(form: Array, metric: Array) -> Array:
                      b * (ie * b + jf * c) + c * (jf * b + ig * c)], axis=-1)
 
 
-def make_stiffness(lattices: Lattices, places: Places) -> Stiffness:
+def make_stiffness(lattices: Lattices, places: SpanGrid) -> Stiffness:
     """Rows and weights at the Gauss places of the nominal faces."""
     tangents, seconds = places.nominal.tangents, places.nominal.seconds
     normal, area_element = normals(places.nominal, places.outward)
@@ -155,9 +156,11 @@ def make_stiffness(lattices: Lattices, places: Places) -> Stiffness:
     hessian = np.matmul(tensor, covariant)
     form = np.einsum("skpx,skx->skp", seconds, normal)
     curvature = np.einsum("skpq,skq->skp", tensor, form)
-    weight = 0.25 * np.outer(_WEIGHTS, _WEIGHTS).ravel() * area_element * lattices.step.prod(axis=1)[:, None]
-    return Stiffness(places, np.where(places.inside, weight, 0.0), np.where(places.inside, 1.0, _OUTSIDE) * weight,
-                     slope, hessian, curvature, normal, np.matmul(to_frame, tangents))
+    span_weights = 0.25 * np.outer(_GAUSS_WEIGHTS, _GAUSS_WEIGHTS).ravel()
+    weight = span_weights * area_element * lattices.step.prod(axis=1)[:, None]
+    return Stiffness(places, np.where(places.inside, weight, 0.0),
+                     np.where(places.inside, 1.0, _OUTSIDE_WEIGHT) * weight, slope, hessian, curvature, normal,
+                     np.matmul(to_frame, tangents))
 
 
 def _frame(tangents: Array) -> Array:
@@ -177,8 +180,8 @@ def _frame(tangents: Array) -> Array:
 def _tensor_rotation(frame: Array) -> Array:
     """Turns rows uu, uv, vv of a symmetric tensor into rows 11, √2·12, 22: (spans, k, 3, 3)."""
     rows = []
-    for p, (i, j) in enumerate(_PAIRS):
+    for p, (i, j) in enumerate(_TENSOR_PAIRS):
         a, b = frame[..., i, :], frame[..., j, :]
-        rows.append(_NORM[p] * np.stack([a[..., 0] * b[..., 0], a[..., 0] * b[..., 1] + a[..., 1] * b[..., 0],
-                                         a[..., 1] * b[..., 1]], axis=-1))
+        rows.append(_TENSOR_NORM[p] * np.stack([a[..., 0] * b[..., 0], a[..., 0] * b[..., 1] + a[..., 1] * b[..., 0],
+                                                a[..., 1] * b[..., 1]], axis=-1))
     return np.stack(rows, axis=-2)

@@ -21,8 +21,8 @@ from .lattices import Lattices, products
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
 _BOUNDARY_SPACING = 0.3
-_FAR_FROM_TRIM = 3.0
-_APART = 1e6
+_LARGEST_TRIM_DISTANCE = 3.0
+_FACE_SEPARATION = 1e6
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Jet:
 
 
 @dataclass(frozen=True)
-class Places:
+class SpanGrid:
     """The same local places in every span of every face, with the nominal surface there.
 
     Attributes
@@ -89,10 +89,10 @@ def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:
 def by_face(position: Array, face: Index) -> Array:
     """Places (n, 3) in mm with a fourth coordinate that parts their faces (n,), so that a tree finds places of the own
     face first: (n, 4)."""
-    return np.column_stack([position, _APART * face])
+    return np.column_stack([position, _FACE_SEPARATION * face])
 
 
-def make_places(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -> Places:
+def make_span_grid(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -> SpanGrid:
     """Places at x × x in every span, x (m,) local coordinates."""
     local = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
     jets, inside = [], []
@@ -105,7 +105,7 @@ def make_places(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -
     tables = np.stack([products(local[:, 0], local[:, 1], *order) for order in DERIVATIVES])
     scale = np.stack([lattices.step[:, 0] ** -du * lattices.step[:, 1] ** -dv for du, dv in DERIVATIVES], axis=1)
     outward = np.array([face.outward for face in faces], dtype=float)[lattices.face_of_span]
-    return Places(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
+    return SpanGrid(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
 
 
 def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
@@ -114,14 +114,14 @@ def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
     return blocks.reshape(nu * nv, m * m, *rest)
 
 
-def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: Places) -> Array:
+def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid) -> Array:
     """Distance in mm of each cell from the border of its face, at most a few mm; negative outside: (spans, k)."""
-    distance = np.full(cells.inside.shape, _FAR_FROM_TRIM)
+    distance = np.full(cells.inside.shape, _LARGEST_TRIM_DISTANCE)
     for index, face in enumerate(faces):
         border = boundary_points(face, _BOUNDARY_SPACING)
         if len(border):
             spans = np.flatnonzero(lattices.face_of_span == index)
             position = cells.nominal.position[spans].reshape(-1, 3)
-            near = cKDTree(border).query(position, distance_upper_bound=_FAR_FROM_TRIM)[0]
-            distance[spans] = np.minimum(near, _FAR_FROM_TRIM).reshape(len(spans), -1)
+            near = cKDTree(border).query(position, distance_upper_bound=_LARGEST_TRIM_DISTANCE)[0]
+            distance[spans] = np.minimum(near, _LARGEST_TRIM_DISTANCE).reshape(len(spans), -1)
     return np.where(cells.inside, distance, -distance)

@@ -14,8 +14,8 @@ from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
 from ...splines import DEGREE, SplineSurface
 
-FEWEST_CLOSED_SPANS = 8
-_PROBES = 17
+LEAST_CLOSED_SPANS = 8
+_PROBES_PER_SIDE = 17
 
 
 def cubic(x: Array, derivative: int = 0) -> Array:
@@ -145,7 +145,7 @@ def build_lattices(faces: tuple[FaceGeometry, ...], span: float, turning: float,
 
 def _spans(face: FaceGeometry, span: float, turning: float, periodic: tuple[bool, bool], finer: int) -> tuple[int, int]:
     u0, u1, v0, v1 = face.surface.range
-    u, v = np.linspace(u0, u1, _PROBES), np.linspace(v0, v1, _PROBES)
+    u, v = np.linspace(u0, u1, _PROBES_PER_SIDE), np.linspace(v0, v1, _PROBES_PER_SIDE)
     points = face.surface.on_grid(u, v)
     normals = _normals(points)
     counts = []
@@ -154,7 +154,7 @@ def _spans(face: FaceGeometry, span: float, turning: float, periodic: tuple[bool
         step = np.linalg.norm(np.diff(normals, axis=axis), axis=2)
         turn = (2 * np.arcsin(np.clip(step / 2, 0, 1))).sum(axis=axis).max()
         count = finer * max(1, int(np.ceil(length / span - 0.25)), int(np.ceil(turn / turning - 0.25)))
-        counts.append(max(count, FEWEST_CLOSED_SPANS) if periodic[axis] else count)
+        counts.append(max(count, LEAST_CLOSED_SPANS) if periodic[axis] else count)
     return counts[0], counts[1]
 
 

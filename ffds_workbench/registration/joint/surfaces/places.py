@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from ...arrays import Array, Index
@@ -13,7 +14,7 @@ from .lattices import Lattices
 
 
 @dataclass(frozen=True)
-class Samples:
+class FacePlaces:
     """n places, each on one face.
 
     Attributes
@@ -50,26 +51,31 @@ class Samples:
         tangents = self.tangents(control_points)
         return _unit(np.cross(tangents[0], tangents[1])) * self.outward[:, None]
 
+    @property
+    def nominal_normals(self) -> Array:
+        """Unit normals of the nominal faces out of the material: (n, 3)."""
+        return _unit(np.cross(self.nominal[1], self.nominal[2])) * self.outward[:, None]
+
     def matrix(self, count: int, order: int = 0) -> csr_matrix:
         """Sparse rows that give d (or d_u, d_v: order 1, 2) from ``count`` control points: (n, count)."""
         start = np.arange(len(self) + 1) * 16
         return csr_matrix((self.weights[order].ravel(), self.controls.ravel(), start), shape=(len(self), count))
 
-    def take(self, which: Index) -> Samples:
-        return Samples(self.face[which], self.span[which], self.controls[which], self.weights[:, which],
-                       self.nominal[:, which], self.outward[which])
+    def take(self, which: Index | NDArray[np.bool_]) -> FacePlaces:
+        return FacePlaces(self.face[which], self.span[which], self.controls[which], self.weights[:, which],
+                          self.nominal[:, which], self.outward[which])
 
 
-def concatenate(first: Samples, second: Samples) -> Samples:
+def concatenate(first: FacePlaces, second: FacePlaces) -> FacePlaces:
     """Both, one after the other."""
-    return Samples(np.concatenate([first.face, second.face]), np.concatenate([first.span, second.span]),
-                   np.concatenate([first.controls, second.controls]),
-                   np.concatenate([first.weights, second.weights], axis=1),
-                   np.concatenate([first.nominal, second.nominal], axis=1),
-                   np.concatenate([first.outward, second.outward]))
+    return FacePlaces(np.concatenate([first.face, second.face]), np.concatenate([first.span, second.span]),
+                      np.concatenate([first.controls, second.controls]),
+                      np.concatenate([first.weights, second.weights], axis=1),
+                      np.concatenate([first.nominal, second.nominal], axis=1),
+                      np.concatenate([first.outward, second.outward]))
 
 
-def sample(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> Samples:
+def places_on_faces(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> FacePlaces:
     """Places at (u, v) (n, 2) on faces (n,), in the order given."""
     n, orders = len(face), ((0, 0), (1, 0), (0, 1))
     span, local = np.zeros(n, dtype=np.intp), np.zeros((n, 2))
@@ -82,7 +88,7 @@ def sample(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv:
             nominal[k, at] = faces[index].surface.derivative(du, dv)(uv[at])
         outward[at] = faces[index].outward
     weights = np.stack([lattices.weights(span, local, du, dv) for du, dv in orders])
-    return Samples(np.asarray(face, dtype=np.intp), span, lattices.controls[span], weights, nominal, outward)
+    return FacePlaces(np.asarray(face, dtype=np.intp), span, lattices.controls[span], weights, nominal, outward)
 
 
 def _unit(vectors: Array) -> Array:

@@ -4,7 +4,7 @@ errors), `shared_noise` (errors that neighbouring points share), `observed_cells
 them.
 """
 from .assessment import assess
-from .covariance import paid
+from .covariance import prior_cost
 from .misfit import misfit
 
-__all__ = ["assess", "misfit", "paid"]
+__all__ = ["assess", "misfit", "prior_cost"]

@@ -14,7 +14,7 @@ from ..joint_result import EdgeRegistration, Flag, JointFace
 from ..priors import directions, parameters
 from ..problem import Problem
 from ..state import State
-from ..surfaces import normals, sample
+from ..surfaces import normals, places_on_faces
 from .bands import TWO_SIDED, edge_bands, normal_bands
 from .covariance import covariance_blocks
 from .misfit import misfit, nearest_spans
@@ -74,7 +74,7 @@ def _edges(problem: Problem, state: State, covariance: Array, errors: Array, see
     number = np.concatenate([np.full(len(edge.points), k) for k, edge in enumerate(part.edges) if edge.faces])
     nominal = np.concatenate([edge.points for edge in edges])
     first, last = (np.concatenate([np.full(len(edge.points), edge.faces[k]) for edge in edges]) for k in (0, -1))
-    samples = sample(part.faces, lattices, first, np.concatenate([edge.uv[0] for edge in edges]))
+    samples = places_on_faces(part.faces, lattices, first, np.concatenate([edge.uv[0] for edge in edges]))
     points = samples.nominal[0] + samples.displacement(state.control_points)
     near = seen.edge_near(float(problem.margin.max()))
     gaps = [seen.gap_of(face, nominal) for face in (first, last)]

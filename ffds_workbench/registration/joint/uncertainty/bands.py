@@ -7,13 +7,13 @@ from scipy.special import chdtri
 
 from ...arrays import Array, Index
 from ..problem import Problem
-from ..surfaces import Samples
+from ..surfaces import FacePlaces
 
 TWO_SIDED = 1.96
-_UNSEEN, _FAR = 4.30, 2.0
+_UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 2.0
 """The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
 that the shape strays as Student's t with two degrees of freedom does."""
-_LEAK, _LEAK_ZONE = 0.08, 2.0
+_NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 2.0
 """Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
 reaches into the face."""
 _EDGE_MISFIT = 0.045
@@ -40,11 +40,11 @@ def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Arra
         spans = np.arange(start, min(start + 256, len(normal)))
         at = np.einsum("ki,kj,sijxy->skxy", table, table, span_covariance(problem, covariance, spans), optimize=True)
         variance[spans] += np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
-    leak = _LEAK * problem.statistics.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
+    leak = _NEIGHBOUR_LEAK * problem.statistics.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
     return _quantile(gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
 
 
-def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samples, direction: Array, gap: Array,
+def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: FacePlaces, direction: Array, gap: Array,
                misfit: Array) -> Array:
     """Bands across edges with unit directions (n, 3): (n,) in mm; the others as for `normal_bands`, edge by edge.
 
@@ -71,4 +71,4 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Samp
 
 def _quantile(gap: Array) -> Array:
     """Half width of a 95 % band in standard deviations."""
-    return TWO_SIDED + (_UNSEEN - TWO_SIDED) * np.clip(gap / _FAR, 0, 1)
+    return TWO_SIDED + (_UNSEEN_QUANTILE - TWO_SIDED) * np.clip(gap / _UNSEEN_DISTANCE, 0, 1)

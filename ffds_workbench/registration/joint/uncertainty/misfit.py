@@ -9,15 +9,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..data import CellValues, patch_sums
+from ..data import CellHeights, patch_sums
 from ..problem import Problem
 from ..surfaces import by_face
 
-_AROUND = 15.0
+_POOLING_RADIUS = 15.0
 """Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
 
 
-def misfit(problem: Problem, values: CellValues) -> Array:
+def misfit(problem: Problem, values: CellHeights) -> Array:
     """Variance of the misfit around every span, (spans,) in mm²: of its mean, and of what varies from patch to patch.
 
     Both are what is left when the expectation from noise is taken off (the moment estimator of DerSimonian and Laird,
@@ -27,8 +27,8 @@ def misfit(problem: Problem, values: CellValues) -> Array:
     pull, total = patch_sums(height * weight), patch_sums(weight)
     seen = total > 0
     excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=(1, 2))
-    place = _places(problem)
-    near = cKDTree(place).query_ball_point(place, _AROUND, workers=-1)
+    place = _span_middles(problem)
+    near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS, workers=-1)
     row, column = np.repeat(np.arange(len(place)), [len(item) for item in near]), np.concatenate(near).astype(np.intp)
     around = [np.bincount(row, item[column], len(place))
               for item in (total.sum(axis=(1, 2)), pull.sum(axis=(1, 2)), excess)]
@@ -40,9 +40,9 @@ def misfit(problem: Problem, values: CellValues) -> Array:
 
 def nearest_spans(problem: Problem, face: Index, position: Array) -> Index:
     """The span of faces (n,) whose middle is nearest to nominal places (n, 3): (n,)."""
-    return cKDTree(_places(problem)).query(by_face(position, face), workers=-1)[1]
+    return cKDTree(_span_middles(problem)).query(by_face(position, face), workers=-1)[1]
 
 
-def _places(problem: Problem) -> Array:
+def _span_middles(problem: Problem) -> Array:
     """Middles of the spans `by_face`: (spans, 4)."""
     return by_face(problem.cells.nominal.position.mean(axis=1), problem.lattices.face_of_span)

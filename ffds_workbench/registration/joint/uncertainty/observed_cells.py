@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..data import CellValues
+from ..data import CellHeights
 from ..problem import Problem
 
 OBSERVED, BRIDGED, CARRIED = "observed", "bridged", "carried"
-_NEAR = 1.0
-_SPACINGS = 3.0
-_SEEN_FACE = 0.05
-_EDGE_NEAR = 2.0
+_LEAST_NEARNESS = 1.0
+_NEAR_IN_SPACINGS = 3.0
+_SEEN_FACE_SHARE = 0.05
+_NEAR_EDGE = 2.0
 """Observed cells this near (mm, or twice the trim margin) make an edge observed: none lie nearer than the margin."""
 
 
@@ -39,7 +39,7 @@ class Coverage:
 
     def flags(self, gap: Array, face: Index, near: float) -> NDArray[np.str_]:
         """Flag of places on faces (n,) with their distance (n,) from what was observed."""
-        seen = self.share[face] >= _SEEN_FACE
+        seen = self.share[face] >= _SEEN_FACE_SHARE
         return np.where(seen & (gap <= near), OBSERVED, np.where(seen, BRIDGED, CARRIED))
 
     def gap_of(self, face: Index, position: Array) -> Array:
@@ -54,14 +54,14 @@ class Coverage:
 
     def edge_near(self, margin: float) -> float:
         """How near to an edge observed cells make it observed."""
-        return max(_EDGE_NEAR, 2 * margin, self.near)
+        return max(_NEAR_EDGE, 2 * margin, self.near)
 
 
-def coverage(problem: Problem, values: CellValues) -> Coverage:
+def coverage(problem: Problem, values: CellHeights) -> Coverage:
     """Coverage of every face by the cells that carry weight."""
     shape = problem.cells.inside.shape
     observed = values.weight.reshape(shape) > 0
-    near = max(_NEAR, _SPACINGS / np.sqrt(problem.statistics.density))
+    near = max(_LEAST_NEARNESS, _NEAR_IN_SPACINGS / np.sqrt(problem.statistics.density))
     gap, share, trees = np.full(shape, np.inf), np.zeros(len(problem.part.faces)), []
     for face in range(len(problem.part.faces)):
         spans = np.flatnonzero(problem.lattices.face_of_span == face)

@@ -15,7 +15,7 @@ from ..problem import Problem
 from ..state import State
 from ..surfaces import normals
 
-_FIELDS, _WAVES = 48, 300
+_FIELD_COUNT, _WAVE_COUNT = 48, 300
 _CHUNK = 8192
 
 
@@ -30,25 +30,26 @@ def shared_errors(problem: Problem, state: State, factor: FrontCholesky) -> Arra
     shape = problem.cells.inside.shape
     weight = state.values.weight.reshape(shape)
     cells = np.flatnonzero(weight)
-    heights = np.zeros((problem.cells.inside.size, _FIELDS))
-    heights[cells] = sensor.sigma_c * _fields(problem.cells.nominal.position.reshape(-1, 3)[cells],
-                                              sensor.correlation_length, np.random.default_rng(problem.settings.seed))
+    heights = np.zeros((problem.cells.inside.size, _FIELD_COUNT))
+    heights[cells] = sensor.sigma_c * _random_fields(problem.cells.nominal.position.reshape(-1, 3)[cells],
+                                                     sensor.correlation_length,
+                                                     np.random.default_rng(problem.settings.seed))
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     rows = weight[:, :, None] * normals(jet, problem.cells.outward)[0]
     table = problem.cells.tables[0]
     loads = np.stack([gather(problem, np.matmul(table.T, field[:, :, None] * rows)).ravel()
-                      for field in heights.T.reshape(_FIELDS, *shape)], axis=1)
-    return factor.solve_many(loads).T.reshape(_FIELDS, -1, 3)
+                      for field in heights.T.reshape(_FIELD_COUNT, *shape)], axis=1)
+    return factor.solve_many(loads).T.reshape(_FIELD_COUNT, -1, 3)
 
 
-def _fields(place: Array, length: float, rng: np.random.Generator) -> Array:
+def _random_fields(place: Array, length: float, rng: np.random.Generator) -> Array:
     """Random fields of unit variance with the correlation exp(−r²/2 length²) at places (n, 3): (n, fields).
 
     Sums of random waves (Rahimi and Recht, Random Features for Large-Scale Kernel Machines, 2007).
     """
-    waves = rng.normal(0.0, 1.0 / length, (3, _WAVES))
-    amplitude = rng.normal(0.0, 1.0 / np.sqrt(_WAVES), (2, _WAVES, _FIELDS))
-    result = np.empty((len(place), _FIELDS))
+    waves = rng.normal(0.0, 1.0 / length, (3, _WAVE_COUNT))
+    amplitude = rng.normal(0.0, 1.0 / np.sqrt(_WAVE_COUNT), (2, _WAVE_COUNT, _FIELD_COUNT))
+    result = np.empty((len(place), _FIELD_COUNT))
     for start in range(0, len(place), _CHUNK):
         phase = place[start : start + _CHUNK] @ waves
         result[start : start + _CHUNK] = np.cos(phase) @ amplitude[0] + np.sin(phase) @ amplitude[1]

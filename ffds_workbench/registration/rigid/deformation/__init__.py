@@ -2,8 +2,10 @@
 """A pose of a part that is not rigid: `displacement_field` (what a material may do), `deformation_match` (the
 deformation that a scan asks for at a pose) and `deformed_pose` (the pose that fits all of the deformed part).
 """
-from .deformation_match import NOT, SOFT, STIFF, Match, Rounds, match
-from .deformed_pose import settle
-from .displacement_field import Deformation
+from .deformation_match import (NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS, Match, Rounds,
+                                match_deformed)
+from .deformed_pose import pose_of_deformed_part
+from .displacement_field import DisplacementField
 
-__all__ = ["NOT", "SOFT", "STIFF", "Deformation", "Match", "Rounds", "match", "settle"]
+__all__ = ["NO_DEFORMATION_ROUNDS", "SOFT_DEFORMATION_ROUNDS", "STIFF_DEFORMATION_ROUNDS", "DisplacementField", "Match",
+           "Rounds", "match_deformed", "pose_of_deformed_part"]

@@ -10,17 +10,18 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ..model import Target
-from .displacement_field import DEGREE, Deformation, Pulls, fit, still
+from .displacement_field import (LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement,
+                                 no_displacement)
 
 Rounds = Sequence[tuple[float, int]]
 
-_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
-NOT = ()
-STIFF = tuple((gate, 2) for gate in _GATES)
-SOFT = (*STIFF[:2], *((gate, DEGREE) for gate in _GATES[2:]))
+_ROUND_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
+NO_DEFORMATION_ROUNDS = ()
+STIFF_DEFORMATION_ROUNDS = tuple((gate, 2) for gate in _ROUND_GATES)
+SOFT_DEFORMATION_ROUNDS = (*STIFF_DEFORMATION_ROUNDS[:2], *((gate, LARGEST_DEGREE) for gate in _ROUND_GATES[2:]))
 """Rounds of a fit: gates as shares of the part's size, and degrees of the deformation. None at all; those that tell the
 part from another one; and those that follow a deformed part."""
-_FEWEST = 60
+_LEAST_POINTS = 60
 """Points from which a deformation is fitted."""
 
 
@@ -42,27 +43,27 @@ class Match:
     height: Array
     normal: Array
 
-    def heights(self, points: Array, gate: float) -> Pulls | None:
+    def heights(self, points: Array, gate: float) -> DisplacementObservations | None:
         """What the heights want of the deformation, where the points (n, 3) lie with it; None of too few points.
 
         Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
         """
         some = np.flatnonzero(np.isfinite(self.distance))
-        if len(some) < _FEWEST:
+        if len(some) < _LEAST_POINTS:
             return None
         left, normal = self.height[some], self.normal[some]
         wanted = left + np.einsum("ni,ni->n", normal, points[some] - self.points[some])
-        return Pulls(self.points[some], normal, wanted, left, np.ones(len(some)), gate)
+        return DisplacementObservations(self.points[some], normal, wanted, left, np.ones(len(some)), gate)
 
 
-def lay(target: Target, points: Array, normals: Array, reach: float) -> Match:
+def match_undeformed(target: Target, points: Array, normals: Array, reach: float) -> Match:
     """Points and outward normals (n, 3), without the deformation and in model coordinates, matched with the part."""
     distance, nearest = target.nearest(points, normals, reach)
     return Match(points, distance, nearest, *target.heights(points, nearest))
 
 
-def match(target: Target, points: Array, normals: Array, reach: float, rounds: Rounds,
-          start: Deformation | None = None) -> tuple[Match, Deformation]:
+def match_deformed(target: Target, points: Array, normals: Array, reach: float, rounds: Rounds,
+                   start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
     """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
 
     Parameters
@@ -72,12 +73,13 @@ def match(target: Target, points: Array, normals: Array, reach: float, rounds: R
     rounds : gates as shares of the part's size, and degrees of the deformation
     start : what is known of the deformation
     """
-    deformation = still(target) if start is None else start
-    found = lay(target, points if start is None else deformation.straightened(points, points), normals, reach)
+    deformation = no_displacement(target) if start is None else start
+    found = match_undeformed(target, points if start is None else deformation.straightened(points, points), normals,
+                             reach)
     for gate, degree in rounds:
         heights = found.heights(points, gate * target.size)
         if heights is None:
             break
-        deformation = fit(deformation.of_degree(degree), heights)
-        found = lay(target, deformation.straightened(points, found.points), normals, reach)
+        deformation = fit_displacement(deformation.of_degree(degree), heights)
+        found = match_undeformed(target, deformation.straightened(points, found.points), normals, reach)
     return found, deformation

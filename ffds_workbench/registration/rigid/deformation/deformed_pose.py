@@ -11,25 +11,25 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array
 from ...motions import apply, best_fit
-from ..model import Rims, Target, once_for_target
-from ..refine import Ends, beside, find_ends
-from .deformation_match import lay
-from .displacement_field import DEGREE, Deformation, Pulls, fit
+from ..model import Rims, Target, kept_with_target
+from ..refine import ScanEnds, find_scan_ends, points_near_rims
+from .deformation_match import match_undeformed
+from .displacement_field import LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement
 
-_LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
+_LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (LARGEST_DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
 """Degree of the deformation in each look at the scan, and its rounds: every which point counts, least cut-off of the
 heights' weights, and how far off the ends of the scan may lie, as shares of the part's size."""
-_ON_FACE, _COARSE = 3.0, 0.01
+_ON_FACE_SIGMAS, _COARSE_HEIGHT = 3.0, 0.01
 """Height up to which a point near a rim is on its face, in standard deviations of what the deformation leaves; and at
 least in the first round of a look, as a share of the part's size."""
-_ENDS = 4.0
+_END_WEIGHT = 4.0
 """What an end counts beyond its own uncertainty, as heights are off by what the polynomials cannot follow."""
-_CELLS = 600
+_CELL_COUNT = 600
 """Pieces of the part's surface that its pose is the best fit of."""
 
 
-def settle(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
-           deformation: Deformation) -> tuple[Array, Deformation]:
+def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
+                          deformation: DisplacementField) -> tuple[Array, DisplacementField]:
     """Motion (4, 4) that brings a deformed part onto the nominal one best, over all of its surface alike, and the
     deformation that is left then.
 
@@ -45,11 +45,11 @@ def settle(target: Target, points: Array, normals: Array, reach: float, pool: Ar
     noise : standard deviation of the points in mm
     deformation : that is known already
     """
-    middles, area = cells_of(target)
+    middles, area = surface_cells(target)
     pose = np.eye(4)
     for degree, rounds in _LOOKS:
         scan = _Scan(apply(pose, points), normals @ pose[:3, :3].T, apply(pose, pool), noise)
-        deformation = _look(target, scan, reach, deformation.of_degree(degree), rounds)
+        deformation = _fit_look(target, scan, reach, deformation.of_degree(degree), rounds)
         motion = best_fit(middles + deformation(middles), middles, area)
         pose, deformation = motion @ pose, deformation.moved(motion)
     return pose, deformation
@@ -57,7 +57,7 @@ def settle(target: Target, points: Array, normals: Array, reach: float, pool: Ar
 
 @dataclass(frozen=True)
 class _Scan:
-    """See ``settle``."""
+    """See ``pose_of_deformed_part``."""
 
     points: Array
     normals: Array
@@ -65,50 +65,53 @@ class _Scan:
     noise: float
 
 
-def _look(target: Target, scan: _Scan, reach: float, deformation: Deformation,
-          rounds: Sequence[tuple[int, float, float]]) -> Deformation:
+def _fit_look(target: Target, scan: _Scan, reach: float, deformation: DisplacementField,
+              rounds: Sequence[tuple[int, float, float]]) -> DisplacementField:
     """The likeliest deformation from where the scan lies and ends, coarse to fine."""
     size, rims = target.size, target.rims
     straight = deformation.straightened(scan.points, deformation.straightened(scan.points, scan.points))
     near = deformation.straightened(scan.pool, scan.pool)
-    row, entry = beside(rims, near, rounds[0][2] * size, _hidden(rims, straight, scan.normals))
+    row, entry = points_near_rims(rims, near, rounds[0][2] * size, _hidden_stretches(rims, straight, scan.normals))
     bent, border = scan.pool.take(row, axis=0), near.take(row, axis=0)
     for turn, (every, gate, end_reach) in enumerate(rounds):
         straight = deformation.straightened(scan.points, straight)
-        found = lay(target, straight[::every], scan.normals[::every], reach)
+        found = match_undeformed(target, straight[::every], scan.normals[::every], reach)
         heights = found.heights(scan.points[::every], gate * size)
         if heights is None:
             break
         spread = max(heights.spread, scan.noise)
         border = deformation.straightened(bent, border)
-        ends = find_ends(rims, border, entry, end_reach * size, scan.noise,
-                         max(_ON_FACE * spread, 0.0 if turn else _COARSE * size))
-        deformation = fit(deformation, heights, _pulls(ends, deformation, spread, end_reach * size), scan.noise)
+        ends = find_scan_ends(rims, border, entry, end_reach * size, scan.noise,
+                              max(_ON_FACE_SIGMAS * spread, 0.0 if turn else _COARSE_HEIGHT * size))
+        at_ends = _end_observations(ends, deformation, spread, end_reach * size)
+        deformation = fit_displacement(deformation, heights, at_ends, scan.noise)
     return deformation
 
 
-def _hidden(rims: Rims, points: Array, normals: Array) -> NDArray[np.bool_]:
+def _hidden_stretches(rims: Rims, points: Array, normals: Array) -> NDArray[np.bool_]:
     """Which stretches of rim are of the side of a sheet that the scan does not show; (m,)."""
     nearest = cKDTree(points, balanced_tree=False, compact_nodes=False).query(rims.middles)[1]
     return np.einsum("ni,ni->n", normals[nearest], rims.faces) < 0.0
 
 
-def _pulls(ends: Ends, deformation: Deformation, spread: float, cutoff: float) -> Pulls | None:
+def _end_observations(ends: ScanEnds, deformation: DisplacementField, spread: float,
+                      cutoff: float) -> DisplacementObservations | None:
     """What the ends want of the deformation; None if there are none."""
     if not len(ends.gap):
         return None
     moved = np.einsum("ni,ni->n", deformation(ends.places), ends.outwards)
-    return Pulls(ends.places, ends.outwards, moved + ends.gap, ends.gap, _ENDS * spread**2 * ends.weight, cutoff)
+    weight = _END_WEIGHT * spread**2 * ends.weight
+    return DisplacementObservations(ends.places, ends.outwards, moved + ends.gap, ends.gap, weight, cutoff)
 
 
-@once_for_target
-def cells_of(target: Target) -> tuple[Array, Array]:
+@kept_with_target
+def surface_cells(target: Target) -> tuple[Array, Array]:
     """Centroids (k, 3) in mm and areas (k,) in mm² of small pieces of the surface.
 
     A mean over them is exact for what is linear within a piece; one over points at random has the error of a random
     sample, which tilts a bent part by some tenths of a degree.
     """
-    samples, seeds = target.samples, target.even.points[:_CELLS]
+    samples, seeds = target.samples, target.even.points[:_CELL_COUNT]
     cell = cKDTree(seeds).query(samples.points)[1]
     area: Array = np.bincount(cell, samples.area, len(seeds)).astype(float)
     held = area > 0.0

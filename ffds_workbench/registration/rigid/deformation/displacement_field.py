@@ -16,34 +16,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array
-from ...robust_weights import quantile, tukey
-from ..model import Samples, Target, once_for_target
+from ...robust_weights import MAD_TO_SIGMA, quantile, tukey
+from ..model import SurfaceSamples, Target, kept_with_target
 
-DEGREE = 4
+LARGEST_DEGREE = 4
 """Of the polynomials."""
-_LENGTH, _AMPLITUDE = 0.6, 0.01
+_CORRELATION_LENGTH, _AMPLITUDE = 0.6, 0.01
 """ℓ in halves of the part's size, and s as a share of the size."""
-_TELLS = 0.02
+_NEGLIGIBLE_MONOMIAL = 0.02
 """Monomials that move nothing of the part by this share of s are left out: powers across a sheet."""
 _STRAIN_POINTS = 75
 """Places of the surface whose strain counts, about."""
-_ALONG, _THROUGH = ((0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))), ((2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0)))
+_SURFACE_STRAIN = (0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))
+_THICKNESS_STRAIN = (2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0))
 """Components of the strain along the surface and through it, in frames of two tangents and the normal, with the root of
 how often each stands in the tensor."""
-_STIFF = 0.5
+_STRAIN_COST = 0.5
 """A strain of 1 costs as much as so many mm of height, at as many points."""
-_STRAINS, _LEAST, _MOST = 150.0, 0.1, 5.0
+_STRAIN_HEIGHTS, _LEAST_STRAIN_COST, _LARGEST_STRAIN_COST = 150.0, 0.1, 5.0
 """Where the surface stretches, it costs less, as far as all strains count as this many heights; and its limits."""
-_BEYOND = 0.1
+_BOX_MARGIN = 0.1
 """The displacement goes on as it is at this distance, in halves of the part's size, from the box of the part."""
-_CUT = 4.0
+_CUTOFF_SIGMAS = 4.0
 """Cut-off of Tukey's weights in standard deviations."""
-_FLAT = 1e-6
+_LEAST_SPREAD = 1e-6
 """Least spread of points that is reckoned with, as a share of the part's size."""
 
 
 @dataclass(frozen=True, eq=False)
-class Space:
+class DisplacementBasis:
     """The displacements of a part that are reckoned with.
 
     Attributes
@@ -77,30 +78,30 @@ class Space:
         return result
 
 
-@once_for_target
-def space_of(target: Target) -> Space:
+@kept_with_target
+def displacement_basis(target: Target) -> DisplacementBasis:
     """The displacements of a part."""
     half = 0.5 * target.size
     x = (target.samples.points - target.centre) / half
     powers: list[tuple[int, ...]] = []
     deviations = []
-    for power in (p for d in range(DEGREE + 1) for p in combinations_with_replacement(range(3), d)):
+    for power in (p for d in range(LARGEST_DEGREE + 1) for p in combinations_with_replacement(range(3), d)):
         exponents = np.array([power.count(axis) for axis in range(3)])
-        deviation = 1.0 / (sqrt(prod(factorial(int(e)) for e in exponents)) * _LENGTH ** len(power))
-        moves = deviation * np.prod(np.abs(x).max(axis=0) ** exponents) > _TELLS
+        deviation = 1.0 / (sqrt(prod(factorial(int(e)) for e in exponents)) * _CORRELATION_LENGTH ** len(power))
+        moves = deviation * np.prod(np.abs(x).max(axis=0) ** exponents) > _NEGLIGIBLE_MONOMIAL
         if len(power) < 2 or (moves and power[:-1] in powers):
             powers.append(power)
             deviations.append(deviation)
     some = target.even[np.arange(0, len(target.even.area), 1 + len(target.even.area) // _STRAIN_POINTS)]
     frames = np.ascontiguousarray(np.concatenate([some.tangents, some.normals[:, None]], axis=1).transpose(1, 2, 0))
     slopes = np.einsum("nka,ian->ikn", _gradients(powers, some, target.centre, half), frames)
-    box = np.stack([x.min(axis=0) - _BEYOND, x.max(axis=0) + _BEYOND]).astype(np.float32)
-    return Space(target.size, target.centre, box,
-                 tuple((powers.index(power[:-1]), power[-1]) for power in powers[1:]),
-                 np.array([len(power) for power in powers]), np.array(deviations) ** -2.0, frames, slopes)
+    box = np.stack([x.min(axis=0) - _BOX_MARGIN, x.max(axis=0) + _BOX_MARGIN]).astype(np.float32)
+    return DisplacementBasis(target.size, target.centre, box,
+                             tuple((powers.index(power[:-1]), power[-1]) for power in powers[1:]),
+                             np.array([len(power) for power in powers]), np.array(deviations) ** -2.0, frames, slopes)
 
 
-def _gradients(powers: list[tuple[int, ...]], samples: Samples, middle: Array, half: float) -> Array:
+def _gradients(powers: list[tuple[int, ...]], samples: SurfaceSamples, middle: Array, half: float) -> Array:
     """Gradients of the monomials at the samples, (n, k, 3) in 1/mm."""
     x = (samples.points - middle) / half
     result = np.zeros((len(x), len(powers), 3))
@@ -113,10 +114,10 @@ def _gradients(powers: list[tuple[int, ...]], samples: Samples, middle: Array, h
 
 
 @dataclass(frozen=True)
-class Deformation:
+class DisplacementField:
     """d(X) = Σ c_k m_k(X), with the first monomials of a space; ``coefficients`` (k, 3) in mm."""
 
-    space: Space
+    space: DisplacementBasis
     coefficients: Array
 
     def __call__(self, places: Array) -> Array:
@@ -128,7 +129,7 @@ class Deformation:
         """The nominal places (n, 3) that have moved to points (n, 3), one step nearer than places near them."""
         return points - self(near)
 
-    def moved(self, motion: Array) -> Deformation:
+    def moved(self, motion: Array) -> DisplacementField:
         """The deformation of the part after it has moved by (4, 4) as a whole."""
         turn, half = motion[:3, :3], 0.5 * self.space.size
         coefficients = self.of_degree(max(1, int(self.space.degree[len(self.coefficients) - 1]))).coefficients @ turn.T
@@ -136,7 +137,7 @@ class Deformation:
         coefficients[1:4] += half * (turn - np.eye(3)).T
         return replace(self, coefficients=coefficients)
 
-    def of_degree(self, degree: int) -> Deformation:
+    def of_degree(self, degree: int) -> DisplacementField:
         """The same with the monomials up to a degree."""
         count = int(np.searchsorted(self.space.degree, degree, side="right"))
         coefficients = np.zeros((count, 3))
@@ -156,41 +157,42 @@ class Deformation:
         return np.concatenate(values), np.concatenate(rows, axis=1)
 
 
-def still(target: Target) -> Deformation:
+def no_displacement(target: Target) -> DisplacementField:
     """No deformation at all."""
-    return Deformation(space_of(target), np.zeros((1, 3)))
+    return DisplacementField(displacement_basis(target), np.zeros((1, 3)))
 
 
 @dataclass(frozen=True)
-class Pulls:
+class DisplacementObservations:
     """Displacements wanted of places in one direction each.
 
     Attributes
     ----------
     places, directions : (n, 3) in mm and unit vectors
-    wanted, left : (n,) in mm: the displacement, and how much of it is not reached yet
+    displacement, residual : (n,) in mm: the displacement, and how much of it is not reached yet
     weight : (n,) in units of 1/variance of the points on the faces
     cutoff : least cut-off in mm of Tukey's weights
     """
 
     places: Array
     directions: Array
-    wanted: Array
-    left: Array
+    displacement: Array
+    residual: Array
     weight: Array
     cutoff: float
 
     @property
     def spread(self) -> float:
         """Standard deviation of what is left in mm, by its median."""
-        return 1.4826 * quantile(np.abs(self.left), 0.5)
+        return MAD_TO_SIGMA * quantile(np.abs(self.residual), 0.5)
 
     def robust(self) -> Array:
         """Weights (n,) after those that are far off are left out."""
-        return self.weight * tukey(self.left, max(_CUT * self.spread, self.cutoff))
+        return self.weight * tukey(self.residual, max(_CUTOFF_SIGMAS * self.spread, self.cutoff))
 
 
-def fit(start: Deformation, heights: Pulls, ends: Pulls | None = None, noise: float | None = None) -> Deformation:
+def fit_displacement(start: DisplacementField, heights: DisplacementObservations,
+                     ends: DisplacementObservations | None = None, noise: float | None = None) -> DisplacementField:
     """One Gauss-Newton step towards the likeliest deformation.
 
     Parameters
@@ -203,16 +205,17 @@ def fit(start: Deformation, heights: Pulls, ends: Pulls | None = None, noise: fl
     """
     space, count = start.space, len(start.coefficients)
     coefficients = start.coefficients.ravel()
-    deviation = max(heights.spread, _FLAT * space.size) / (_AMPLITUDE * space.size)
+    deviation = max(heights.spread, _LEAST_SPREAD * space.size) / (_AMPLITUDE * space.size)
     matrix = np.diag(np.repeat(space.precision[:count] * deviation**2, 3))
     right = np.zeros(3 * count)
     number, places = len(heights.places), space.frames.shape[-1]
-    for components in (_ALONG, _THROUGH):
+    for components in (_SURFACE_STRAIN, _THICKNESS_STRAIN):
         strain, rows = start.strains(components)
-        cost = _STIFF
-        if noise is not None and components is _ALONG:
+        cost = _STRAIN_COST
+        if noise is not None and components is _SURFACE_STRAIN:
             square = max(float(strain @ strain) / places, 1e-12)
-            cost = float(np.clip(max(heights.spread, noise) * sqrt(_STRAINS / number / square), _LEAST, _MOST))
+            cost = float(np.clip(max(heights.spread, noise) * sqrt(_STRAIN_HEIGHTS / number / square),
+                                 _LEAST_STRAIN_COST, _LARGEST_STRAIN_COST))
         share = cost**2 * number / places
         matrix += share * (rows @ rows.T)
         right += share * (rows @ (coefficients @ rows - strain))
@@ -221,5 +224,5 @@ def fit(start: Deformation, heights: Pulls, ends: Pulls | None = None, noise: fl
         directions = (root * pulls.directions.T).astype(np.float32)
         rows = (space.values(pulls.places, count)[:, None] * directions).reshape(3 * count, -1)
         matrix += rows @ rows.T
-        right += rows @ (root * pulls.wanted).astype(np.float32)
+        right += rows @ (root * pulls.displacement).astype(np.float32)
     return replace(start, coefficients=np.linalg.solve(matrix, right).reshape(-1, 3))

@@ -14,13 +14,13 @@ from ...arrays import Array
 from ...face_geometry import FaceGeometry
 from ...trims import inside_polylines
 
-_MOST_PER_FACE = 1500
-_VOXELS, _NEAR = 80, 0.08
+_POINTS_PER_FACE = 1500
+_GRID_VOXELS, _NEAR_RIM = 80, 0.08
 """Of the grid that tells which points lie near rims, along the part; and what is near, as a share of its length."""
-_AROUND, _OPPOSITE = 64, 0.7
+_SHEET_NEIGHBOURS, _OPPOSITE_COSINE = 64, 0.7
 """Points in which one on the other side of a sheet is looked for, and the cosine from which directions are the same.
 """
-_STRETCH = 8
+_STRETCH_POINTS = 8
 """Points of a stretch of rim, half the spacing of the part's samples apart."""
 
 
@@ -55,7 +55,7 @@ class Rims:
         return self._means(self.points)
 
     @cached_property
-    def ways(self) -> Array:
+    def outward_directions(self) -> Array:
         """Direction out of the face at each stretch; (m, 3) unit vectors."""
         means = self._means(self.outwards)
         return means / np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-12)
@@ -85,9 +85,9 @@ class Rims:
     @cached_property
     def across(self) -> NDArray[np.intp]:
         """For each point the one on the other side of a sheet, itself where there is none; (n,)."""
-        near = self.tree.query(self.points, k=min(_AROUND, len(self.points)))[1].reshape(len(self.points), -1)
-        found = (self.normals[near] * self.normals[:, None]).sum(axis=2) < -_OPPOSITE
-        found &= (self.outwards[near] * self.outwards[:, None]).sum(axis=2) > _OPPOSITE
+        near = self.tree.query(self.points, k=min(_SHEET_NEIGHBOURS, len(self.points)))[1].reshape(len(self.points), -1)
+        found = (self.normals[near] * self.normals[:, None]).sum(axis=2) < -_OPPOSITE_COSINE
+        found &= (self.outwards[near] * self.outwards[:, None]).sum(axis=2) > _OPPOSITE_COSINE
         return np.where(found.any(axis=1), near[np.arange(len(near)), found.argmax(axis=1)], np.arange(len(near)))
 
     def clear(self, depth: float) -> NDArray[np.bool_]:
@@ -96,21 +96,16 @@ class Rims:
             self._clear[depth] = self.tree.query(self.points - depth * self.outwards)[0] > 0.9 * depth
         return self._clear[depth]
 
-    @property
-    def length_of_stretch(self) -> float:
-        """In mm."""
-        return _STRETCH * self.step
-
     @cached_property
     def _grid(self) -> tuple[Array, float, NDArray[np.int32]]:
         """Lower corner (3,) and edge length in mm of voxels, and the nearest point of each (nx, ny, nz), −1 where none
         is near."""
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         length = float((high - low).max())
-        voxel, low = length / _VOXELS, low - _NEAR * length
-        shape = np.ceil((high + _NEAR * length - low) / voxel).astype(int) + 1
+        voxel, low = length / _GRID_VOXELS, low - _NEAR_RIM * length
+        shape = np.ceil((high + _NEAR_RIM * length - low) / voxel).astype(int) + 1
         middles = low + (np.moveaxis(np.indices(shape), 0, -1).reshape(-1, 3) + 0.5) * voxel
-        nearest = self.tree.query(middles, distance_upper_bound=_NEAR * length, workers=-1)[1].astype(np.int32)
+        nearest = self.tree.query(middles, distance_upper_bound=_NEAR_RIM * length, workers=-1)[1].astype(np.int32)
         return low, voxel, np.where(nearest < len(self.points), nearest, np.int32(-1)).reshape(shape)
 
     def nearest(self, points: Array, pose: Array) -> NDArray[np.int32]:
@@ -179,14 +174,14 @@ def _edge_points(face: FaceGeometry, index: int, step: float,
     for polyline in face.trims:
         length = np.linalg.norm(np.diff(surface(polyline), axis=0), axis=1)
         travelled = np.concatenate([[0.0], np.cumsum(length)])
-        count = int(np.clip(travelled[-1] / step, 4, _MOST_PER_FACE))
+        count = int(np.clip(travelled[-1] / step, 4, _POINTS_PER_FACE))
         at = (np.arange(count) + 0.5) / count * travelled[-1]
         segment = np.clip(np.searchsorted(travelled, at, side="right") - 1, 0, len(length) - 1)
         share = (at - travelled[segment]) / np.maximum(length[segment], 1e-300)
         run = np.diff(polyline, axis=0)[segment]
         starts.append(polyline[segment] + share[:, None] * run)
         along.append(run)
-        parts.append(before + np.arange(count) // _STRETCH)
+        parts.append(before + np.arange(count) // _STRETCH_POINTS)
         before = int(parts[-1][-1]) + 1
     uv, direction, part = np.concatenate(starts), np.concatenate(along), np.concatenate(parts)
     su, sv = surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv)

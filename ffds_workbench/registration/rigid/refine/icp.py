@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array
-from ...motions import apply, step, twist_rows
+from ...motions import apply, twist_motion, twist_rows
 from ...robust_weights import quantile, tukey
 from ..model import Target
 
-_MOST, _SETTLE = 0.85, 4.0
+_SCALE_QUANTILE, _CUTOFF_FACTOR = 0.85, 4.0
 """Cut-off of the weights: so many times the residual that most points stay below. Noise and deformation count nearly in
 full, as the best fit of a deformed part wants it; what lies apart does not."""
-_STILL = 3e-5
+_SETTLED_STEP = 3e-5
 """A step below this share of the part's size ends a stage."""
-_KEPT = 0.25
+_MATCHES_LAST = 0.25
 """Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""
 
 
@@ -46,7 +46,7 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
         travelled = np.inf
         for _ in range(iterations):
             moved = apply(pose, points)
-            if travelled > _KEPT * target.spacing:
+            if travelled > _MATCHES_LAST * target.spacing:
                 turned = None if normals is None else normals @ pose[:3, :3].T
                 distance, nearest = target.nearest(moved, turned, gate)
                 near = np.flatnonzero(np.isfinite(distance))
@@ -55,10 +55,10 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
                 nearest, travelled = nearest[near], 0.0
             moved = moved[near]
             update = fit_step(target, moved, nearest, gate)
-            pose = step(update, target.centre) @ pose
+            pose = twist_motion(update, target.centre) @ pose
             moves = float(np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2)
             travelled += moves
-            if moves < _STILL * target.size:
+            if moves < _SETTLED_STEP * target.size:
                 break
     return pose
 
@@ -73,7 +73,7 @@ def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], gate: flo
     gate : in mm, the largest cut-off of the weights
     """
     height, normal = target.heights(points, nearest)
-    cutoff = min(max(_SETTLE * quantile(np.abs(height), _MOST), 1e-3 * gate), gate)
+    cutoff = min(max(_CUTOFF_FACTOR * quantile(np.abs(height), _SCALE_QUANTILE), 1e-3 * gate), gate)
     beyond, outwards = target.overshoot(points, nearest, gate)
     out = np.flatnonzero(beyond > 0)
     weight = np.concatenate([tukey(height, cutoff), tukey(beyond[out], gate)])

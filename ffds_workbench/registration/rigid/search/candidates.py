@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array
-from ...motions import angle, apply, shift, step, twist_rows
-from ..model import Target, once_for_target
+from ...motions import angle, apply, shift, twist_motion, twist_rows
+from ..model import Target, kept_with_target
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
-_SAME_SIDE = 0.35
-_RESOLUTION, _MARGIN = 40, 0.2
+_SAME_SIDE_COSINE = 0.35
+_TABLE_VOXELS, _TABLE_MARGIN = 40, 0.2
 """Voxels of the look-up table along its longest side, and share of the part's size that it reaches beyond the part."""
 
 
@@ -55,16 +55,16 @@ class NearestField:
         return self.nearest.ravel()[flat]
 
 
-@once_for_target
-def field_of(target: Target) -> NearestField:
+@kept_with_target
+def nearest_field(target: Target) -> NearestField:
     """The look-up table of a part and its surroundings."""
     points, normals = target.even.points, target.even.normals
-    low, high = points.min(axis=0) - _MARGIN * target.size, points.max(axis=0) + _MARGIN * target.size
-    voxel = float((high - low).max()) / _RESOLUTION
+    low, high = points.min(axis=0) - _TABLE_MARGIN * target.size, points.max(axis=0) + _TABLE_MARGIN * target.size
+    voxel = float((high - low).max()) / _TABLE_VOXELS
     axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
     tables = []
-    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE) for side in _SIDES), np.arange(len(points))]:
+    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE_COSINE) for side in _SIDES), np.arange(len(points))]:
         facing = facing if len(facing) else np.arange(len(points))
         tables.append(facing[cKDTree(points[facing]).query(grid.reshape(-1, 3))[1]].reshape(grid.shape[:3]))
     return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size)
@@ -118,7 +118,7 @@ def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Se
     (Geman-McClure) has fallen to a quarter."""
     poses, scale = candidates.poses, np.array([2.0 / field.size] * 3 + [1.0] * 3)
     for gate in gates:
-        moved, offset, normal, agreement = _match(field, probe, candidates.signs, poses)
+        moved, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, poses)
         distance = np.einsum("kmi,kmi->km", offset, offset)
         weight = (gate**2 / (gate**2 + distance)) ** 2 * (0.02 + agreement**2)
         height = np.einsum("kmi,kmi->km", normal, offset)
@@ -134,18 +134,18 @@ def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Se
         update = np.linalg.solve(matrix, right[:, :, None])[:, :, 0] * scale
         turn = np.linalg.norm(update[:, :3], axis=1, keepdims=True)
         update[:, :3] *= np.minimum(1.0, 0.5 / np.maximum(turn, 1e-12))
-        poses = step(update, field.centre) @ poses
+        poses = twist_motion(update, field.centre) @ poses
     return Candidates(poses, candidates.signs)
 
 
 def scores(field: NearestField, probe: Probe, candidates: Candidates, width: float) -> Array:
     """Mean over the points of closeness (to ``width`` mm) times agreement of the normals, 0…1; (k,)."""
-    _, offset, normal, agreement = _match(field, probe, candidates.signs, candidates.poses)
+    _, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, candidates.poses)
     distance = np.einsum("kmi,kmi->km", offset, offset)
     return (agreement * width**2 / (width**2 + distance)).mean(axis=1)
 
 
-def _match(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
+def _match_nearest(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
     """Moved points, their offsets from the nearest samples, those samples' normals, and how well they agree."""
     moved = apply(poses, probe.points)
     turned = signs[:, probe.piece, None] * (probe.normals @ np.swapaxes(poses[:, :3, :3], -1, -2))

@@ -9,16 +9,16 @@ import numpy as np
 
 from ...arrays import Array
 from ...scan_sketch import Sketch
-from ..evidence import is_rough
+from ..evidence import hides_sides
 from ..model import Target
-from .candidates import Candidates, Probe, distinct, field_of, improve, scores
+from .candidates import Candidates, Probe, distinct, improve, nearest_field, scores
 
-_MAJOR = 0.1
+_MAJOR_PIECE = 0.1
 """Share of the points from which a piece of surface has a sign of its own in the search."""
 
 
 @dataclass(frozen=True)
-class Stage:
+class SearchStage:
     """One round of the search.
 
     Attributes
@@ -39,19 +39,19 @@ class Stage:
     turn: float
 
 
-THOROUGH = (Stage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), Stage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
-            Stage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
-QUICK = (Stage(90, 0.30, 0.07, 7, 0.04, 6, 0.1), Stage(250, 0.07, 0.02, 5, 0.015, 1, 0.05))
-LOCAL = (Stage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), Stage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
+THOROUGH_SEARCH = (SearchStage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), SearchStage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
+                   SearchStage(600, 0.05, 0.03, 8, 0.03, 12, 0.05))
+QUICK_SEARCH = (SearchStage(90, 0.30, 0.07, 7, 0.04, 6, 0.1), SearchStage(250, 0.07, 0.02, 5, 0.015, 1, 0.05))
+LOCAL_SEARCH = (SearchStage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), SearchStage(600, 0.05, 0.03, 8, 0.03, 5, 0.04))
 
 
-def propose(target: Target, sketch: Sketch, starts: Array, stages: Sequence[Stage],
+def propose(target: Target, sketch: Sketch, starts: Array, stages: Sequence[SearchStage],
             generator: np.random.Generator) -> Candidates:
     """The most promising poses, best first."""
     share = np.bincount(sketch.piece) / len(sketch.piece)
-    sided = not is_rough(target, sketch)
-    pieces = max(1, int((share[:2] > _MAJOR).sum())) if sided else 1
-    field, size = field_of(target), target.size
+    sided = not hides_sides(target, sketch)
+    pieces = max(1, int((share[:2] > _MAJOR_PIECE).sum())) if sided else 1
+    field, size = nearest_field(target), target.size
     candidates = Candidates.all_signs(starts, pieces)
     if not sided:
         candidates = candidates[candidates.signs[:, 0] > 0]

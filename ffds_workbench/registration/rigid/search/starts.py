@@ -14,7 +14,7 @@ from ..model import Target
 
 _AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
 """How far, in rad and as a share of the part's size, the surroundings of the best pose are searched once more."""
-_ROTATIONS = 500
+_GLOBAL_ROTATIONS = 500
 _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
 """Turns from the present pose that a fine alignment looks at, and the largest in rad."""
 
@@ -27,7 +27,7 @@ def starts_of(target: Target, sketch: Sketch, mode: str) -> Array:
         goals = np.concatenate([_centres(sketch.points, target.size), target.centre[None]])
         return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in goals])
     centres = _centres(sketch.points, target.size)
-    rotations = even_rotations(_ROTATIONS)
+    rotations = even_rotations(_GLOBAL_ROTATIONS)
     return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in centres])
 
 
