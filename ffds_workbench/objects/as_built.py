@@ -10,11 +10,10 @@ import FreeCAD
 import numpy as np
 
 from ..errors import InputError
-from ..registration.request import (ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST,
-                                   RegistrationRequest)
+from ..registration.request import ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST, RegistrationRequest
 from ..report.table import doubts
 from .feature import HIDDEN, READ_ONLY, Feature, Property
-from .job import Job, make_job
+from .jobs.registration_job import Job, make_job
 from .lattices import Lattice, draw_lattices
 from .signatures import found_again, signatures
 from .waiting import wait_for

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import FfdsError, InputError
 from ...objects.as_built import request_of
-from ...objects.job import Job, make_job
+from ...objects.jobs.registration_job import Job, make_job
 from ...objects.sources import Source, standing_for
 from ...registration.request import RegistrationRequest
 from .. import running

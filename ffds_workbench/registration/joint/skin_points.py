@@ -11,19 +11,19 @@ from ..arrays import Array, Index
 from ..normal_sides import orient_normals
 from .data import ScanStatistics
 
-_FEWEST, _MOST = 12, 100
+_LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100
 """Neighbours that a plane is put through."""
-_TURN = 0.15
+_PLANE_TURN = 0.15
 """Standard deviation in rad that noise may turn a plane by; in a disc of radius r with k points it is 2σ/(r√k)."""
-_WITHIN, _BEYOND = 0.5, 2.0
+_ONE_SKIN_RADIUS, _BOTH_SKINS_RADIUS = 0.5, 2.0
 """Radius of a neighbourhood over the thickness up to which it holds points of one skin, and from which those of both
 turn its plane no more: two parallel planes have the normal of one."""
-_POINTS, _APART, _SPARE = (2500, 40_000), 0.6, 2
+_COUNT_BOUNDS, _POINT_DISTANCE, _SPARE_FACTOR = (2500, 40_000), 0.6, 2
 """Points that tell sides, at least and at most; their distance over the thickness, as far ones link skins; and how many
 times as many even ones are taken from."""
 _ROUNDS = 3
 """Sizes of cubes that are tried."""
-_STRAY = 3.0
+_STRAY_DISTANCE = 3.0
 """A point whose neighbours are farther by this factor than they usually are is no part of a surface."""
 
 
@@ -48,22 +48,24 @@ def skin_points(scan: Array, part: cKDTree, reach: float, statistics: ScanStatis
 
     ``part`` holds places on the nominal part, of which they lie within ``reach`` mm.
     """
-    count = int(np.clip(len(scan) / statistics.density / (_APART * thickness) ** 2, *_POINTS))
-    some = scan if len(scan) < _SPARE * count else generator.choice(scan, _SPARE * count, replace=False, shuffle=False)
+    count = int(np.clip(len(scan) / statistics.density / (_POINT_DISTANCE * thickness) ** 2, *_COUNT_BOUNDS))
+    some = scan if len(scan) < _SPARE_FACTOR * count else generator.choice(scan, _SPARE_FACTOR * count, replace=False,
+                                                                           shuffle=False)
     some = some[np.isfinite(part.query(some, distance_upper_bound=reach, workers=-1)[0])]
     if not len(some):
         return SkinPoints(some, some, np.zeros(0, dtype=np.intp))
     points = _even(some, count)
-    wide = np.pi * (_WITHIN * thickness) ** 2
-    enough = max(_FEWEST, (2 * statistics.noise / _TURN) ** 2 * np.pi / wide) / wide
+    wide = np.pi * (_ONE_SKIN_RADIUS * thickness) ** 2
+    enough = max(_LEAST_NEIGHBOURS, (2 * statistics.noise / _PLANE_TURN) ** 2 * np.pi / wide) / wide
     share = min(1.0, max(enough / statistics.density, count / len(scan)))
     pool = scan if share == 1.0 else generator.choice(scan, int(share * len(scan)), replace=False, shuffle=False)
     density = np.pi * share * statistics.density
-    neighbours = max(_FEWEST, 2 * statistics.noise * np.sqrt(density) / _TURN)
-    if neighbours > density * (_WITHIN * thickness) ** 2:
-        neighbours = max(neighbours, density * (_BEYOND * thickness) ** 2)
-    distance, index = cKDTree(pool).query(points, min(int(np.clip(neighbours, _FEWEST, _MOST)), len(pool)), workers=-1)
-    usual = distance[:, -1] < _STRAY * np.median(distance[:, -1])
+    neighbours = max(_LEAST_NEIGHBOURS, 2 * statistics.noise * np.sqrt(density) / _PLANE_TURN)
+    if neighbours > density * (_ONE_SKIN_RADIUS * thickness) ** 2:
+        neighbours = max(neighbours, density * (_BOTH_SKINS_RADIUS * thickness) ** 2)
+    distance, index = cKDTree(pool).query(points, min(int(np.clip(neighbours, _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS)),
+                                                      len(pool)), workers=-1)
+    usual = distance[:, -1] < _STRAY_DISTANCE * np.median(distance[:, -1])
     around = pool[index[usual]]
     around = around - around.mean(axis=1, keepdims=True)
     normals = np.linalg.eigh(np.matmul(around.swapaxes(1, 2), around))[1][:, :, 0]
