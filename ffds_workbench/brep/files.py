@@ -17,7 +17,7 @@ import Part
 
 from ..compat import write_step
 from ..errors import InputError, RefusedError
-from . import document_colours, step_text
+from . import document_colours, step_order, step_text
 from .step_text import Decoration
 
 _EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
@@ -198,7 +198,7 @@ def write(model: Model, path: Path) -> None:
 
 def _write_step(model: Model, path: Path) -> None:
     try:
-        write_step(model.shape, path)
+        write_step(step_order.ordered(model.shape), path)
     except (OSError, RuntimeError, Part.OCCError) as error:
         raise RefusedError(f"The STEP file could not be written: {error}.") from error
     if not path.exists() or not step_text.is_complete(path):
