@@ -9,7 +9,7 @@ import Part
 import pytest
 
 from ffds_workbench import compat
-from ffds_workbench.brep import document_colours, files
+from ffds_workbench.brep.model_files import document_colours, model_file
 
 _PROVIDER = """<?xml version='1.0' encoding='utf-8'?>
 <Document SchemaVersion="1"><ViewProviderData Count="1"><ViewProvider name="Box"><Properties Count="1">
@@ -48,11 +48,11 @@ def test_damaged_colours_are_no_colours(tmp_path, content):
 def test_step_files_have_the_edges_in_their_faces_parameters(tmp_path):
     """A user who has them left out gets them from FFDS all the same, and his own files as before."""
     group = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Part/General")
-    plate = files.Model(Part.makeBox(1, 2, 3).toNurbs(), "Plate")
+    plate = model_file.Model(Part.makeBox(1, 2, 3).toNurbs(), "Plate")
     group.SetInt("WriteSurfaceCurveMode", 0)
     try:
         for name in ("first.step", "second.step"):
-            files.write(plate, tmp_path / name)
+            model_file.write(plate, tmp_path / name)
             assert "PCURVE(" in (tmp_path / name).read_text("utf-8")
         plate.shape.exportStep(str(tmp_path / "own.step"))
         assert "PCURVE(" not in (tmp_path / "own.step").read_text("utf-8")

@@ -25,17 +25,18 @@ from .. import _freecad
 _freecad.activate()
 
 _HOMES = {
-    "..brep.files": ("Model",),
-    "..brep.simulation": ("Simulation",),
+    "..brep.model_files": ("Model",),
+    "..brep.simulated_scan": ("Simulation",),
     "..errors": ("FfdsError", "InputError", "RefusedError"),
     "..registration.joint": ("SensorProfile",),
     "..scan.cloud": ("PointCloud",),
     "..scan.sensor": ("SensorSettings", "View"),
     "..seams.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
-    "..seams.plan": ("check_seam_outputs", "plan_seams", "write_seams"),
+    "..seams.plan": ("plan_seams",),
     "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
     "..seams.settings": ("SeamSettings",),
+    "..seams.writing": ("check_seam_outputs", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
     ".deviating": ("Deviation", "deviation"),
     ".inputs": ("read_model", "read_scan"),

@@ -12,11 +12,11 @@ import numpy as np
 import Part
 
 from ..brep import workpiece
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
+from ..registration.motions import describe_difference
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.motions import difference
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
@@ -54,7 +54,7 @@ class AlignedScan:
             lines.append(f"Symmetry     the part is {found.symmetry}")
         if len(found.poses) > 1:
             here = self.scan.points.mean(axis=0)
-            others = [difference(found.T_model_scan, pose.T_model_scan, here) for pose in found.poses[1:]]
+            others = [describe_difference(found.T_model_scan, pose.T_model_scan, here) for pose in found.poses[1:]]
             lines += [f"Also fits    {'; '.join(dict.fromkeys(others))}",
                       "Which one    nothing in the scan tells: turn it about as it should lie and align it with mode "
                       "fine, or scan more of the part"]

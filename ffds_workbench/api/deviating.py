@@ -9,7 +9,7 @@ import numpy as np
 import Part
 
 from ..brep import workpiece
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import RefusedError
 from ..report import record, table
 from ..report.deviation import FaceDeviation, measure, reach_of

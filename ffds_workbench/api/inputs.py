@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import Part
 
-from ..brep import files
-from ..brep.files import Model
+from ..brep.model_files import Model, model_file
 from ..errors import InputError
 from ..scan import files as scan_files
 from ..scan.cloud import PointCloud
@@ -22,14 +21,14 @@ def read_scan(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> Poi
 
 def read_model(path: str | Path, label: str | None = None) -> Model:
     """Read a model file; ``label`` picks the object of a FreeCAD document that holds several."""
-    return files.read(path, label)
+    return model_file.read(path, label)
 
 
 def as_model(model: Model | Part.Shape | str | Path | object) -> Model:
     """A model in any of the forms that the jobs take."""
     if isinstance(model, (str, Path)):
         return read_model(model)
-    return model if isinstance(model, Model) else files.from_object(model)
+    return model if isinstance(model, Model) else model_file.from_object(model)
 
 
 def as_cloud(scan: PointCloud | np.ndarray | str | Path) -> PointCloud:

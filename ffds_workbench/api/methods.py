@@ -6,19 +6,13 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from ..brep.closing import closing_displacements
-from ..brep.displacement import FaceDisplacement
-from ..brep.field import local_displacements
+from ..brep.continuity import closing_displacements, local_displacements
+from ..brep.face_displacement import FaceDisplacement
 from ..brep.joint_part import joint_part
 from ..brep.workpiece import Workpiece
 from ..errors import RefusedError
-from ..registration.far_side import far_side
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
+from ..registration.face import FaceRegistration, far_side, observed_faces, register_ffd, register_ffds, register_robust
 from ..registration.joint import JointFace, JointRegistration, SensorProfile, register_joint
-from ..registration.observed import observed_faces
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
 from ..report.stopwatch import Stopwatch
 from ..scan.cloud import PointCloud
 from .tuning import Tuning

@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import Part
 
-from ..brep import files
-from ..brep.files import Model
+from ..brep.model_files import Model, model_file
 from ..errors import InputError
 from ..output import check_writable, replacing
-from ..report import picture as drawing
 from ..report import record
+from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
 from ..scan.cloud import PointCloud
 from .deviating import Deviation
@@ -32,10 +31,10 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     InputError : a destination cannot be written or is one of ``inputs``
     RefusedError : the disk is full, or the file would not hold the same model
     """
-    files.check_output(Path(out))
+    model_file.check_output(Path(out))
     outputs = destinations((out, report, picture), inputs)
     with replacing(outputs.pop(0)) as temporary:
-        files.write(result.model, temporary[0])
+        model_file.write(result.model, temporary[0])
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if picture is not None:
@@ -66,7 +65,7 @@ def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Pat
 
 def check_model_output(path: str | Path) -> None:
     """Refuse the name of an as-built model that no exporter knows (InputError)."""
-    files.check_output(Path(path))
+    model_file.check_output(Path(path))
 
 
 def destinations(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:

@@ -12,12 +12,12 @@ import numpy as np
 import Part
 
 from ..brep import workpiece
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..brep.rebuild import rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import InputError
+from ..registration.face import FaceRegistration
 from ..registration.joint import JointFace, JointRegistration, SensorProfile
-from ..registration.result import FaceRegistration
 from ..report import record, table
 from ..report.boolean_check import BooleanChecks
 from ..report.certificate import Certificate, Structure, condition, enforce, structure

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import Part
 
-from ..brep.files import Model
-from ..brep.simulation import Simulation, simulate_shape
+from ..brep.model_files import Model
+from ..brep.simulated_scan import Simulation, simulate_shape
 from ..output import replacing
 from ..scan.sensor import SensorSettings
 from ..scan.sensor.files import write_ply

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 from ..errors import InputError
+from ..registration.face import RobustSettings
 from ..registration.joint import JointSettings
-from ..registration.raster_fit import RobustSettings
 
 STIFFEST = 1e4
 """Stiffness may be up to this, or down to its inverse."""

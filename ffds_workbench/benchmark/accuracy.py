@@ -12,7 +12,7 @@ from typing import Any
 
 from . import accuracy_cases, accuracy_sheet, page, style
 from .accuracy_cases import FLAGS
-from .accuracy_lines import Line, figure, held, lines
+from .accuracy_lines import AccuracyLine, figure, held, lines
 from .accuracy_sheet import FIGURES, SHEETS
 from .page import Picture, Section, Table
 
@@ -64,7 +64,7 @@ def _supplied() -> list[str]:
     return sorted(item.name for item in cases.iterdir() if (item / "truth.npz").is_file()) if cases.is_dir() else []
 
 
-def _sections(folder: Path, data: dict[str, Any], found: Sequence[Line]) -> list[Section]:
+def _sections(folder: Path, data: dict[str, Any], found: Sequence[AccuracyLine]) -> list[Section]:
     met = sum(line.met for line in found)
     rows = [[line.what, f"{line.found:.4g}", line.asked, "met" if line.met else "NOT MET"] for line in found]
     verdict = Section("What is asked", [f"{met} of {len(found)} lines are met."],

@@ -18,11 +18,11 @@ from scipy.spatial import cKDTree
 
 from .. import ROOT, api
 from ..brep import workpiece
-from ..brep.built import built_geometry
+from ..brep.rebuilt_faces import built_geometry
 from ..errors import FfdsError
+from ..registration.arrays import Array
 from ..registration.joint import SensorProfile
 from ..registration.projection import project
-from ..registration.splines import Array
 from ..report.certificate import broken
 from .families import SCANS, make_case
 from .sheet import to_polyline

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy_cases import FLAGS, WITH_NORMALS, WITHOUT_NORMALS
+from .accuracy_cases import FLAGS, WITHOUT_NORMALS, WITH_NORMALS
 from .accuracy_sheet import LEAST_SQUARES
 
 Row = Mapping[str, Any]
@@ -44,7 +44,7 @@ _HELD = {("white", "observed"): (0.93, 0.97), ("white", "bridged"): (0.93, 1.0),
 
 
 @dataclass(frozen=True)
-class Line:
+class AccuracyLine:
     """One thing that has to hold: what was found, what is asked, and whether it does."""
 
     what: str
@@ -68,7 +68,7 @@ def held(rows: Iterable[Row], key: str = "bands") -> dict[str, dict[str, float]]
     return shares
 
 
-def lines(sheets: Mapping[str, Any], rows: Sequence[Row]) -> list[Line]:
+def lines(sheets: Mapping[str, Any], rows: Sequence[Row]) -> list[AccuracyLine]:
     """All lines for which there are figures."""
     found = [*_sheet_lines(sheets), *_case_lines(rows)]
     for name, item in held(rows).items():
@@ -76,15 +76,15 @@ def lines(sheets: Mapping[str, Any], rows: Sequence[Row]) -> list[Line]:
         low, high = _HELD[kind, flag]
         noise = "white noise" if kind == "white" else "correlated noise, sensor profile known"
         asked = f"{low:.2f} to {high:.2f}" if high < 1 else f"at least {low:.2f}"
-        found.append(Line(f"95 % bands, {flag}, {noise}", item["share"], asked, low <= item["share"] <= high))
+        found.append(AccuracyLine(f"95 % bands, {flag}, {noise}", item["share"], asked, low <= item["share"] <= high))
     return found
 
 
-def _at_most(what: str, found: float, limit: float) -> Line:
-    return Line(what, found, f"at most {limit:g}", bool(found <= limit))
+def _at_most(what: str, found: float, limit: float) -> AccuracyLine:
+    return AccuracyLine(what, found, f"at most {limit:g}", bool(found <= limit))
 
 
-def _sheet_lines(sheets: Mapping[str, Any]) -> list[Line]:
+def _sheet_lines(sheets: Mapping[str, Any]) -> list[AccuracyLine]:
     found = []
     if "D" in sheets:
         robust, plain = sheets["D"]["robust"], sheets["D"][LEAST_SQUARES]
@@ -100,7 +100,7 @@ def _sheet_lines(sheets: Mapping[str, Any]) -> list[Line]:
     return found
 
 
-def _case_lines(rows: Sequence[Row]) -> list[Line]:
+def _case_lines(rows: Sequence[Row]) -> list[AccuracyLine]:
     found = []
     for row in rows:
         for what, limit in _CASES.get(row["case"], {}).items():

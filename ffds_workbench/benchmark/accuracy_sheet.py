@@ -9,11 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..registration.face import FaceGeometry
-from ..registration.ffds import register_ffds
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import FaceRegistration, register_ffds, register_robust
+from ..registration.face_geometry import FaceGeometry
 from . import sheet
 from .accuracy_cases import figures
 

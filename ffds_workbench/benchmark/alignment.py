@@ -24,10 +24,10 @@ from scipy.spatial.transform import Rotation
 
 from .. import ROOT
 from ..brep import workpiece
-from ..brep.simulation import target_of as sensor_target_of
-from ..registration.face import FaceGeometry
+from ..brep.simulated_scan import scene_of as sensor_target_of
+from ..registration.face_geometry import FaceGeometry
+from ..registration.motions import angle, apply, best_fit, motion
 from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
-from ..registration.rigid.motions import angle, apply, best_fit, motion
 from ..scan.sensor import SensorSettings, View, simulate
 from .families import Case, make_case
 from .page import Section, Table, write

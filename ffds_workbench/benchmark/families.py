@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 import Part
 
-from ..brep.simulation import edge_points, target_of
-from ..registration.splines import Array
-from ..scan.sensor import SensorSettings, SimulatedScan, Target, Truth, View, make_truth, simulate
+from ..brep.simulated_scan import edge_points, scene_of
+from ..registration.arrays import Array
+from ..scan.sensor import Scene, SensorSettings, SimulatedScan, Truth, View, make_truth, simulate
 from ..scan.sensor.camera import place
 from ..scan.sensor.files import write_ply
 from . import warps
@@ -44,7 +44,7 @@ class Case:
     scan_name: str
     seed: int
     part: FamilyPart
-    target: Target
+    target: Scene
     scan: SimulatedScan
     truth: Truth
     normals: Array | None = None
@@ -86,7 +86,7 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     rng = np.random.default_rng([seed, sorted(FAMILIES).index(family), WARPS.index(warp)])
     part = through_step(FAMILIES[family](rng))
     move = deformation(part, warp, amplitude, rng)
-    target = target_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
+    target = scene_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
     directions = part.views[:1] if scan_name.startswith("one-view") else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
     views = tuple(View(tuple(direction)) for direction in directions)
@@ -99,7 +99,7 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     return Case(family, warp, scan_name, seed, part, target, scan, truth, normals)
 
 
-def sensed_normals(scan: SimulatedScan, target: Target, settings: SensorSettings) -> Array:
+def sensed_normals(scan: SimulatedScan, target: Scene, settings: SensorSettings) -> Array:
     """Normals as a sensor writes them, (n, 3): of the planes through neighbouring points of a shot, to its camera."""
     import open3d
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .sheet import NOISE, SIZE, height
 from .sheet import POINTS as MEASURED_POINTS
 

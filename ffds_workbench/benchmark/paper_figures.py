@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..registration import ffd, ffds
-from ..registration.control_lattice import ControlLattice, displacement_lattice
-from ..registration.neighbours import nearest_neighbours
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import ControlLattice, displacement_lattice, ffd, ffds, nearest_neighbours
 from .interleaved import median_seconds
 from .paper_case import PaperCase
 from .paper_methods import METHODS, Judge
@@ -53,22 +51,22 @@ def solve_times(case: PaperCase, progress: Progress, repeats: int = REPEATS) -> 
         points = source.points.reshape(-1, 3)
         moves = case.target[nearest_neighbours(case.target, points)[1]] - points
         jobs = {
-            "ffds_s": partial(ffds.solve, control, u, v, on_face, moves),
+            "ffds_s": partial(ffds.solve_lattice, control, u, v, on_face, moves),
             "ffds_dense_s": partial(_solve_dense, control, source, moves),
-            "ffd_hsu_s": partial(ffd.solve_dense, volume, points, moves),
+            "ffd_hsu_s": partial(ffd.solve_volume_dense, volume, points, moves),
             "ffd_hsu_touched_s": partial(_solve_touched, volume, points, moves),
-            "ffd_hsu_fast_s": partial(ffd.solve, volume, source, moves),
+            "ffd_hsu_fast_s": partial(ffd.solve_volume, volume, source, moves),
         }
         rows.append({"source_points": len(points), **median_seconds(jobs, repeats)})
     return rows
 
 
 def _solve_dense(control: ControlLattice, source: ffd.FaceSource, moves: Array) -> Array:
-    return ffds.pseudo_inverse(ffds.basis(control, source.u, source.v)) @ moves
+    return ffds.pseudo_inverse(ffds.lattice_basis(control, source.u, source.v)) @ moves
 
 
 def _solve_touched(volume: ffd.VolumeLattice, points: Array, moves: Array) -> Array:
-    matrix = ffd.basis(volume, points)
+    matrix = ffd.volume_basis(volume, points)
     touched = matrix.any(axis=0)
     result = np.zeros((matrix.shape[1], 3))
     result[touched] = ffds.pseudo_inverse(matrix[:, touched]) @ moves

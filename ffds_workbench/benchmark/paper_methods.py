@@ -8,11 +8,8 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import FaceRegistration, register_ffd, register_ffds, register_robust
 from .paper_case import PaperCase, edge_distance, lifted, outline, true_distance
 from .sheet import nominal
 

@@ -10,9 +10,9 @@ import numpy as np
 from mpl_toolkits.mplot3d import Axes3D
 from scipy.spatial import cKDTree
 
-from ..registration import ffd, ffds
-from ..registration.control_lattice import displacement_lattice
-from ..registration.splines import Array, greville
+from ..registration.arrays import Array
+from ..registration.face import displacement_lattice, ffd, ffds
+from ..registration.splines import greville
 from . import style
 from .paper_case import PaperCase, lifted
 from .paper_methods import METHODS, TITLES, deformed

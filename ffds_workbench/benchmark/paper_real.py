@@ -15,15 +15,12 @@ from scipy.spatial import cKDTree
 from .. import ROOT
 from ..brep import workpiece
 from ..errors import RefusedError
-from ..registration.face import FaceGeometry
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import FaceRegistration, register_ffd, register_ffds, register_robust
+from ..registration.face_geometry import FaceGeometry
 from ..scan import files
-from ..scan.sensor import Target
-from ..scan.sensor.target import inside_trims
+from ..scan.sensor import Scene
+from ..scan.sensor.target import inside_outlines
 from ..scan.sensor.truth import foot
 
 FOLDER = ROOT.parent / "shared" / "data" / "weld_pipe_on_angle"
@@ -51,7 +48,7 @@ def measure() -> dict[str, Any] | None:
     index, face = _pipe(part, scan)
     near = _near(face, scan)
     held = np.arange(len(scan)) % _HELD_OUT == 0
-    target = Target([face])
+    target = Scene([face])
     result: dict[str, Any] = {"face": f"Face{index + 1}", "points": int(near.sum()),
                               "before": _figures(target, scan[near & held])}
     for name, register in _METHODS.items():
@@ -60,7 +57,7 @@ def measure() -> dict[str, Any] | None:
         except RefusedError as error:
             result[name] = {"refused": str(error)}
             continue
-        moved = Target([face], {0: lambda uv, _points, d=displacement: d(uv)})
+        moved = Scene([face], {0: lambda uv, _points, d=displacement: d(uv)})
         result[name] = {"fitted": _figures(moved, scan[near & ~held]), "held_out": _figures(moved, scan[near & held])}
     return result
 
@@ -74,15 +71,15 @@ def _pipe(part: workpiece.Workpiece, scan: Array) -> tuple[int, FaceGeometry]:
 
 def _near(face: FaceGeometry, scan: Array) -> np.ndarray:
     """Which scan points lie over the face, inside its trims, within reach."""
-    coarse = cKDTree(Target([face]).grid(2.0)).query(scan, distance_upper_bound=_REACH + 2)[0]
+    coarse = cKDTree(Scene([face]).grid(2.0)).query(scan, distance_upper_bound=_REACH + 2)[0]
     candidates = np.flatnonzero(np.isfinite(coarse))
     near = np.zeros(len(scan), dtype=bool)
     if len(candidates):
-        uv, distance = foot(Target([face]), 0, scan[candidates])
-        near[candidates] = (distance < _REACH) & inside_trims(face.trims, uv)
+        uv, distance = foot(Scene([face]), 0, scan[candidates])
+        near[candidates] = (distance < _REACH) & inside_outlines(face.trims, uv)
     return near
 
 
-def _figures(target: Target, points: Array) -> dict[str, float]:
+def _figures(target: Scene, points: Array) -> dict[str, float]:
     distance = foot(target, 0, points)[1]
     return {"mean": float(distance.mean()), "rms": float(np.sqrt((distance**2).mean()))}

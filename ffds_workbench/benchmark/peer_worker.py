@@ -125,8 +125,8 @@ def ours(method: str) -> Callable[[np.ndarray, np.ndarray], Job]:
     """One of this project's methods."""
 
     def prepare(scan: np.ndarray, size: np.ndarray) -> Job:
-        from ffds_workbench.benchmark.peers_own import OWN
-        from ffds_workbench.benchmark.sheet import nominal
+        from .peers_own import OWN
+        from .sheet import nominal
         source, face = grid(size, 51), nominal()
 
         def job() -> np.ndarray:

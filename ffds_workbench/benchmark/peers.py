@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from .. import ROOT
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from . import page, peers_environment, style
 from .page import Picture, Section, Table
 from .paper_case import true_distance

@@ -6,12 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..registration.face import FaceGeometry
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.result import FaceRegistration
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import FaceRegistration, register_ffd, register_ffds, register_robust
+from ..registration.face_geometry import FaceGeometry
 
 OWN: dict[str, Callable[[FaceGeometry, Array], FaceRegistration]] = {
     "ffds": lambda face, scan: register_ffds(face, scan, (10, 10), 400, overshoot=np.inf),

@@ -15,8 +15,8 @@ from scipy.spatial import cKDTree
 
 from .. import ROOT, api
 from ..brep import workpiece
-from ..registration.observed import observed_faces
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import observed_faces
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from . import page

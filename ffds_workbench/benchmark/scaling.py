@@ -16,10 +16,8 @@ from scipy.spatial import cKDTree
 
 from .. import api
 from ..errors import RefusedError
-from ..registration.ffd import register_ffd
-from ..registration.ffds import register_ffds
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.face import register_ffd, register_ffds, register_robust
 from . import page, style
 from .interleaved import best_seconds, median_seconds, timed
 from .page import Picture, Section, Table

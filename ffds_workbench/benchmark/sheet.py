@@ -11,8 +11,9 @@ import numpy as np
 from scipy.interpolate import LSQBivariateSpline
 from scipy.ndimage import gaussian_filter
 
-from ..registration.face import FaceGeometry
-from ..registration.splines import Array, SplineSurface, clamped_knots, greville
+from ..registration.arrays import Array
+from ..registration.face_geometry import FaceGeometry
+from ..registration.splines import SplineSurface, clamped_knots, greville
 
 SIZE = (75.0, 70.0)
 POINTS = 42_087

@@ -13,13 +13,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .. import ROOT
-from ..brep.lattice import ParameterBox, approximate
-from ..registration.control_lattice import displacement_lattice
-from ..registration.face import FaceGeometry
-from ..registration.ffds import equidistant_grid, register_ffds, solve
-from ..registration.neighbours import nearest_neighbours
-from ..registration.robust import register_robust
-from ..registration.splines import Array
+from ..brep.surface_fit import ParameterBox, approximate
+from ..registration.arrays import Array
+from ..registration.face import (displacement_lattice, equidistant_grid, nearest_neighbours, register_ffds,
+                                 register_robust, solve_lattice)
+from ..registration.face_geometry import FaceGeometry
 from . import page, sheet, speed_whole
 from .interleaved import best_seconds, median_seconds
 from .page import Section, Table
@@ -89,7 +87,7 @@ def _published(face: FaceGeometry, scan: Array) -> Array:
     control = displacement_lattice(face.surface, (10, 10))
     u, v, on_face = equidistant_grid(face, 400)
     source = face.surface.on_grid(u, v)[on_face]
-    return solve(control, u, v, on_face, scan[nearest_neighbours(scan, source)[1]] - source)
+    return solve_lattice(control, u, v, on_face, scan[nearest_neighbours(scan, source)[1]] - source)
 
 
 def _jobs(count: int) -> dict[str, Callable[[], Any]]:

@@ -18,8 +18,8 @@ from scipy.spatial import cKDTree
 from .. import ROOT
 from ..brep import workpiece
 from ..brep.joint_part import joint_part
+from ..registration.arrays import Array
 from ..registration.joint import register_joint
-from ..registration.splines import Array
 from ..scan.sensor import SensorSettings, View, simulate
 from ..scan.sensor.files import write_ply
 from .families import Case, make_case

@@ -18,9 +18,10 @@ import Part
 
 from .. import ROOT
 from ..api.registering import SURFACE_TOLERANCE as LOCAL_TOLERANCE
-from ..brep import files, topology, workpiece
-from ..brep.displacement import FaceDisplacement
-from ..brep.field import local_displacements
+from ..brep import topology, workpiece
+from ..brep.continuity import local_displacements
+from ..brep.face_displacement import FaceDisplacement
+from ..brep.model_files import model_file
 from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
@@ -181,7 +182,7 @@ def _read_back(shape: Part.Shape) -> Part.Shape | None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "shape.step"
         try:
-            files.write(files.Model(shape, "shape"), path)
+            model_file.write(model_file.Model(shape, "shape"), path)
         except FfdsError:
             return None
         back = Part.read(str(path))

@@ -9,9 +9,10 @@ import numpy as np
 import Part
 from FreeCAD import Placement, Rotation, Vector
 
-from ..brep.displacement import FaceDisplacement
+from ..brep.face_displacement import FaceDisplacement
 from ..brep.workpiece import Workpiece, WorkpieceFace
-from ..registration.splines import DEGREE, Array, SplineSurface, clamped_knots, greville
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE, SplineSurface, clamped_knots, greville
 
 _LATTICE = 8
 _BUMP = 0.025, 2.0

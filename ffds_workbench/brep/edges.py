@@ -8,19 +8,18 @@ from functools import cached_property
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array, SplineSurface, basis_matrix
-from .curve_fit import crossings, fit_curve
-from .curves import Curve, Line, Spline
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE, SplineSurface, basis_matrix
 from .kinks import without_false_kinks
-from .pcurves import Pcurve
+from .occt_text import Curve, Line, Pcurve, Spline, crossings, fit_curve
 
 _GAP_SAMPLES = 257
 _GAP_SAMPLES_PER_SPAN = 4
-_KINK = 0.05
+_KINKED_SLOPE = 0.05
 """Relative change of the derivative at a knot from which on the curve counts as kinked; pcurves that intersection
 algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off."""
 _SAME_BREAK = 1e-6
-_STILL = 1e-12
+_CONSTANT_PARAMETER = 1e-12
 """A parameter that varies by less along a pcurve, relative to the other one, is constant."""
 _SEAM_TOLERANCE = 2e-8
 
@@ -66,7 +65,7 @@ class Trace:
             extent = np.ptp(curve.poles, axis=0)
         else:
             return None
-        still = extent <= _STILL * max(1.0, float(extent.max()))
+        still = extent <= _CONSTANT_PARAMETER * max(1.0, float(extent.max()))
         return int(np.argmax(still)) if np.count_nonzero(still) == 1 else None
 
     @cached_property
@@ -157,7 +156,7 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
         return sum(trace.at(fraction) for trace in traces) / len(traces)
 
     breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])
-    breaks = without_false_kinks(mean, breaks, last - first, _KINK)
+    breaks = without_false_kinks(mean, breaks, last - first, _KINKED_SLOPE)
     curve = fit_curve(mean, first, last, breaks, tolerance)
     if closed:
         curve.poles[0] = curve.poles[-1] = 0.5 * (curve.poles[0] + curve.poles[-1])

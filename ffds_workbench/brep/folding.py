@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array, SplineSurface
-from .lattice import GridFunction
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE, SplineSurface
+from .surface_fit import GridFunction
 
-_FEWEST, _MOST = 17, 49
-_VANISHING = 1e-3
+_LEAST_SAMPLES, _LARGEST_SAMPLES = 17, 49
+_VANISHING_NORMAL = 1e-3
 """A normal S_u × S_v shrunk by this factor counts as vanished."""
 
 
@@ -26,13 +27,13 @@ def folded(nominal: GridFunction, deformed: SplineSurface, trims: Sequence[Array
     area = np.linalg.norm(before, axis=1)
     regular = area > 1e-6 * area.max(initial=0.0)
     agreement = np.einsum("ij,ij->i", before, after)[regular]
-    shrunk = np.linalg.norm(after, axis=1)[regular] < _VANISHING * area[regular]
+    shrunk = np.linalg.norm(after, axis=1)[regular] < _VANISHING_NORMAL * area[regular]
     return bool(np.any(agreement <= 0.0) or np.any(shrunk))
 
 
 def _samples(start: float, end: float, knots: Array) -> Array:
     spans = len(np.unique(knots[DEGREE:-DEGREE])) - 1
-    return np.linspace(start, end, int(np.clip(2 * spans + 1, _FEWEST, _MOST)))
+    return np.linspace(start, end, int(np.clip(2 * spans + 1, _LEAST_SAMPLES, _LARGEST_SAMPLES)))
 
 
 def _cell_normals(points: Array) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..registration.joint.part import JointPart, SharedEdge
+from ..registration.joint import JointPart, SharedEdge
 from . import topology
 from .workpiece import Workpiece
 
@@ -37,12 +37,16 @@ def shared_edges(workpiece: Workpiece, adjacency: topology.Topology,
     fractions = np.linspace(0.0, 1.0, samples)
     edges = []
     for index, edge in enumerate(workpiece.shape.Edges):
-        faces, uv, points = [], [], topology.edge_points(edge, fractions)
+        faces, uv, left, points = [], [], [], topology.points_on_edge(edge, fractions)
         for face in adjacency.edge_faces[index]:
-            for trace in topology.edge_traces(workpiece.faces[face].face, edge, fractions):
-                faces.append(face)
-                uv.append(trace.uv)
-        edges.append(SharedEdge(f"Edge{index + 1}", tuple(faces), tuple(uv), points, adjacency.degenerate[index]))
+            own = workpiece.faces[face].face
+            use = own.Edges[adjacency.face_edges[face].index(index)]  # turned as the face's loop runs
+            traces = topology.edge_traces(own, use, fractions)
+            faces += [face] * len(traces)
+            uv += [trace.uv for trace in traces]
+            left += [use.Orientation == "Forward", use.Orientation != "Forward"][: len(traces)]
+        edges.append(SharedEdge(f"Edge{index + 1}", tuple(faces), tuple(uv), tuple(left), points,
+                                adjacency.degenerate[index]))
     return tuple(edges)
 
 

@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..registration.splines import DEGREE, Array
+from ..registration.arrays import Array
+from ..registration.splines import DEGREE
 
-_STEP = 1e-5
-_SAME = 1e-6
+_PROBE_STEP = 1e-5
+_SAME_KNOT = 1e-6
 """Knots nearer to each other than this share of the range may be one and the same but for rounding."""
 
 
@@ -24,12 +25,12 @@ def without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: floa
     kink : relative change of the derivative from which on ``f`` counts as kinked
     """
     breaks = np.sort(breaks)
-    start = np.flatnonzero(np.diff(breaks, prepend=-np.inf) > _SAME * length)
+    start = np.flatnonzero(np.diff(breaks, prepend=-np.inf) > _SAME_KNOT * length)
     distinct, count = breaks[start], np.diff(start, append=len(breaks))
     several = np.flatnonzero(count >= DEGREE)
     if not len(several):
         return np.repeat(distinct, count)
-    at = distinct[several, None] + _STEP * length * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
+    at = distinct[several, None] + _PROBE_STEP * length * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
     points = f(at.ravel()).reshape(len(several), 5, -1)
     before = np.einsum("k,nkd->nd", [1.0, -4.0, 3.0], points[:, :3])
     after = np.einsum("k,nkd->nd", [-3.0, 4.0, -1.0], points[:, 2:])

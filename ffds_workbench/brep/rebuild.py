@@ -14,25 +14,23 @@ import numpy as np
 import Part
 
 from ..errors import RefusedError
-from ..registration.splines import Array, SplineSurface
-from .curves import Spline, read_curve
-from .displacement import FaceDisplacement
+from ..registration.arrays import Array
+from ..registration.splines import SplineSurface
 from .edges import PlacedCurve, Trace, edge_curve, largest_gap
+from .face_displacement import FaceDisplacement
 from .folding import folded
-from .instances import Instances, Locations, product, walk
-from .late_start import late
-from .lattice import approximate
-from .pcurves import Pcurve, PcurveReader, UsedEdge
-from .rewriting import NewEdge, NewFace, NewVertex, Rewriter
-from .text import BrepText, Curve3d, EdgeCurves, VertexPoint, dump, parse
+from .occt_text import (BrepText, Curve3d, EdgeCurves, Instances, Locations, NewEdge, NewFace, NewVertex, Pcurve,
+                        PcurveReader, Rewriter, Spline, UsedEdge, VertexPoint, dump, parse, product, read_curve, walk)
+from .pcurve_start import delay_pcurve_start
+from .surface_fit import approximate
 from .workpiece import Workpiece, WorkpieceFace
 
 SURFACE_TOLERANCE = 2e-6
 """Largest distance in mm of a new surface from the nominal one plus its displacement, where nothing else is asked."""
 
-_EXACT = 9e-8
+_OCCT_PRECISION = 9e-8
 """A gap below this (mm) is within OCCT's own precision."""
-_STILL = 1e-5
+_NO_DISPLACEMENT = 1e-5
 """A displacement below this (mm) counts as none, where a moved face meets one that stays."""
 
 
@@ -141,7 +139,7 @@ class _Geometry:
             for face, used in self._uses[edge] if len(fraction) else ():
                 uv = Trace(self._faces[face].surface, used.pcurves[0]).uv(fraction)
                 moved = displacements[face].evaluate(uv, workpiece.faces[face].at(uv))
-                if np.linalg.norm(moved, axis=1).max() > _STILL:
+                if np.linalg.norm(moved, axis=1).max() > _NO_DISPLACEMENT:
                     raise RefusedError(f"Face{face + 1} would tear off at Edge{edge + 1}, where its neighbour stays.")
 
     def edge(self, edge: int) -> NewEdge:
@@ -170,11 +168,11 @@ class _Geometry:
 
     def start_late(self, edges: Mapping[int, NewEdge], vertices: Mapping[int, NewVertex]
                    ) -> tuple[dict[int, NewEdge], dict[int, NewVertex]]:
-        """The edges and vertices with tolerances for the pcurves that start late (see `late_start`), one per edge."""
+        """The edges and vertices with tolerances for the pcurves that start late (see `pcurve_start`), one per edge."""
         edges, vertices = dict(edges), dict(vertices)
         for edge, (curve, gaps) in self._gaps.items():
             starts = [vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"]
-            if max(gaps, default=0.0) <= _EXACT or not starts:
+            if max(gaps, default=0.0) <= _OCCT_PRECISION or not starts:
                 continue
             start = self._point(starts[0]) if vertices[starts[0]].point is None else vertices[starts[0]].point
             later = self._later(edge, curve, gaps, start)
@@ -195,7 +193,7 @@ class _Geometry:
         single = [(trace.at_seam(0.0), -gap, face, trace) for (face, alone), trace, gap in
                   zip(uses, self._traces(edge), gaps, strict=True) if alone]
         for _, _, face, trace in sorted(single, key=lambda use: use[:3]):
-            later = late(trace, curve, max(gaps), vertex)
+            later = delay_pcurve_start(trace, curve, max(gaps), vertex)
             if later is not None:
                 self._late[face, edge] = later.pcurve
                 return later

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 import Part
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 
 Incidence = tuple[tuple[int, ...], ...]
 
@@ -142,7 +142,7 @@ class EdgeTrace:
     uv: Array
 
 
-def edge_points(edge: Part.Edge, fractions: Array) -> Array:
+def points_on_edge(edge: Part.Edge, fractions: Array) -> Array:
     """Points of an edge at fractions 0…1 of its parameter range: (n,) to (n, 3) in mm."""
     if edge.Degenerated:
         return np.repeat([tuple(edge.Vertexes[0].Point)], len(fractions), axis=0)
@@ -153,8 +153,8 @@ def edge_points(edge: Part.Edge, fractions: Array) -> Array:
 
 def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[EdgeTrace]:
     """The traces of an edge on a face at fractions 0…1 of its range: one, or two where it is a seam."""
-    points = edge_points(edge, fractions)
-    traces: list[EdgeTrace] = []
+    points = points_on_edge(edge, fractions)
+    traces: dict[str, EdgeTrace] = {}
     for side in (edge, edge.reversed()):
         pcurve = face.curveOnSurface(side)
         if pcurve is None:
@@ -162,6 +162,10 @@ def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[Edge
         curve, first, last = pcurve[:3]
         values = [curve.value(t) for t in (first + (last - first) * fractions).tolist()]
         uv = np.array([(value.x, value.y) for value in values])
-        if not traces or np.abs(uv - traces[0].uv).max() > 1e-9:
-            traces.append(EdgeTrace(points, uv))
-    return traces
+        if not traces or np.abs(uv - traces[edge.Orientation].uv).max() > 1e-9:
+            traces[side.Orientation] = EdgeTrace(points, uv)
+    if len(traces) == 2:
+        # A face cut out of a closed one may have kept the far curve of a seam that it no longer meets twice.
+        used = {use.Orientation for wire in face.Wires for use in wire.childShapes() if use.isSame(edge)}
+        traces = {side: trace for side, trace in traces.items() if side in used}
+    return list(traces.values())

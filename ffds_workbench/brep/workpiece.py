@@ -12,10 +12,11 @@ import numpy as np
 import Part
 
 from ..errors import InputError
-from ..registration.face import FaceGeometry
-from ..registration.splines import Array, SplineSurface
-from .lattice import ParameterBox, approximate
-from .parameters import closed_form, own_knots, parameter_box, trims
+from ..registration.arrays import Array
+from ..registration.face_geometry import FaceGeometry
+from ..registration.splines import SplineSurface
+from .face_parameters import closed_form, own_knots, parameter_box, trims
+from .surface_fit import ParameterBox, approximate
 from .topology import Topology
 from .topology import read as read_topology
 

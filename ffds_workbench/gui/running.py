@@ -11,11 +11,13 @@ from typing import Any
 import FreeCADGui as Gui
 
 from ..errors import FfdsError, RefusedError
-from .panel import ProgressBar
 from .qt import QtCore, QtWidgets, execute
 from .translating import said, tr
+from .widgets import ProgressBar
 
 ACTIONS = "ffds_workbench.objects.actions"
+WORKER = "FfdsWorker"
+"""Name of the threads in which work is done."""
 _POLL_MS = 15
 _PATIENCE = 0.3
 """Seconds."""
@@ -93,7 +95,7 @@ class Worker(QtCore.QObject):
         self._timer = QtCore.QTimer(self)
         self._timer.timeout.connect(self._report)
         self._timer.start(_POLL_MS)
-        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread = threading.Thread(target=self._run, name=WORKER, daemon=True)
         self._thread.start()
 
     def wait(self, seconds: float) -> None:

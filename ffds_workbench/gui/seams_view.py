@@ -61,7 +61,7 @@ class SeamsView(Stateless):
     def _draw(self, vobj: Any) -> None:
         from pivy import coin
 
-        from .seams_drawing import seam_nodes
+        from .view3d.seams_drawing import seam_nodes
 
         shown = (vobj.Visibility and "Table" in vobj.Object.PropertiesList and bool(vobj.Object.Table)
                  and vobj.Object.AsBuilt is not None and "ShowLegend" in vobj.PropertiesList)

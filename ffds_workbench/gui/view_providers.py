@@ -65,7 +65,7 @@ class AsBuiltView(Stateless):
         from pivy import coin
 
         from ..objects.as_built import lattices_of
-        from .overlay import lattice_nodes
+        from .view3d.overlay import lattice_nodes
 
         shown = vobj.ShowLattice and vobj.Visibility and bool(vobj.Object.LatticeSizes)
         group = self._lattices.getChild(1)
@@ -84,7 +84,7 @@ class AsBuiltView(Stateless):
 
     def doubleClicked(self, vobj: Any) -> bool:
         """Open the panel with its settings."""
-        from .deformation_panel import open_panel
+        from .panels.deformation_panel import open_panel
 
         open_panel(vobj.Object.Document, item=vobj.Object)
         return True

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import RESOURCES, api
-from ..brep import files
+from ..brep.model_files import model_file
 from ..errors import InputError
 from ..output import check_writable, replacing
 from . import alignment, scans, simulation, views
@@ -138,11 +138,11 @@ def load_example(document: Any) -> tuple[Any, Any]:
 
 def export_as_built(item: Any, path: str) -> None:
     """Write a part with its name and colours as .step, .brep or .FCStd: whole or not at all."""
-    model = files.from_object(item)
+    model = model_file.from_object(item)
     api.check_model_output(path)
     check_writable(Path(path))
     with replacing(Path(path)) as temporary:
-        files.write(model, temporary[0])
+        model_file.write(model, temporary[0])
 
 
 def job_of(item: Any) -> Job:

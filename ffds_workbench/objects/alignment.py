@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import api
-from ..brep import files
+from ..brep.model_files import model_file
 from ..report.stopwatch import Progress
 from .scans import scan_cloud
 
@@ -21,7 +21,7 @@ def prepare(source: Any, scan: Any, mode: str) -> Callable[[Progress | None], ap
     ------
     InputError : the part or the scan cannot be used
     """
-    model, cloud = files.from_object(source), scan_cloud(scan)
+    model, cloud = model_file.from_object(source), scan_cloud(scan)
     key = hashlib.blake2b(model.shape.exportBrepToString().encode() + cloud.tobytes() + mode.encode()).hexdigest()
 
     def run(progress: Progress | None = None) -> api.AlignedScan:

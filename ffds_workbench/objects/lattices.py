@@ -10,7 +10,7 @@ import Part
 from numpy.typing import NDArray
 
 from ..brep import workpiece
-from ..registration.result import FaceRegistration
+from ..registration.face import FaceRegistration
 from ..registration.splines import SplineSurface, greville
 
 Array = NDArray[np.float64]

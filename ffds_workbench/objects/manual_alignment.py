@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from .. import api
-from ..brep import files
+from ..brep.model_files import model_file
 from ..errors import InputError
-from ..registration.rigid.point_pairs import pose_of_pairs
+from ..registration.rigid import pose_of_pairs
 from ..report.stopwatch import Progress
 from .scans import scan_cloud, set_points
 from .sources import standing_for
@@ -51,7 +51,7 @@ def prepare(source: Any, scan: Any, on_scan: Picks, on_part: Picks,
     InputError : as `align_by_points` does
     """
     start = pose_of_pairs(np.array(on_scan, dtype=float), np.array(on_part, dtype=float))
-    cloud, model = scan_cloud(scan), files.from_object(standing_for(source))
+    cloud, model = scan_cloud(scan), model_file.from_object(standing_for(source))
     if scan.getParentGeoFeatureGroup() is not None:
         raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
     key = hashlib.blake2b(model.shape.exportBrepToString().encode() + cloud.tobytes() + start.tobytes()

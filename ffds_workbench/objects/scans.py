@@ -14,7 +14,7 @@ import numpy as np
 import Points
 from numpy.typing import NDArray
 
-from ..brep.files import outer_placement
+from ..brep.model_files import outer_placement
 from ..errors import InputError
 from ..scan.cloud import PointCloud
 from ..scan.normals import unit_normals

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .. import api
-from ..brep import files
-from ..brep.files import Model
+from ..brep.model_files import Model, model_file
 from ..errors import InputError
 from ..report.stopwatch import Progress
 from ..seams.plan import SeamPlan
@@ -85,5 +84,5 @@ def make_seam_job(as_built: Any, nominal: Any, wishes: SeamWishes) -> SeamJob:
     report = report_of(as_built) if is_as_built(as_built) else {}
     if nominal is as_built:
         raise InputError(f"{as_built.Label} cannot be compared with itself: choose the nominal part, or none.")
-    return SeamJob(files.from_object(as_built), None if nominal is None else files.from_object(standing_for(nominal)),
-                   report or None, wishes)
+    before = None if nominal is None else model_file.from_object(standing_for(nominal))
+    return SeamJob(model_file.from_object(as_built), before, report or None, wishes)

@@ -9,7 +9,7 @@ import Part
 
 from ..errors import InputError
 
-_NEAR, _AREA = 1e-3, 0.01
+_SAME_PLACE, _SAME_AREA = 1e-3, 0.01
 """The same face: its centre moved by less than this share of the part's size, its area changed by less than that."""
 
 
@@ -48,4 +48,4 @@ def _is_same(first: str, second: str, shape: Part.Shape) -> bool:
     (kind, *a), (other, *b) = first.split(), second.split()
     a, b = np.array(a, dtype=float), np.array(b, dtype=float)
     size = shape.BoundBox.DiagonalLength
-    return kind == other and np.linalg.norm(a[:3] - b[:3]) < _NEAR * size and abs(a[3] - b[3]) < _AREA * a[3]
+    return kind == other and np.linalg.norm(a[:3] - b[:3]) < _SAME_PLACE * size and abs(a[3] - b[3]) < _SAME_AREA * a[3]

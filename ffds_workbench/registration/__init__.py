@@ -1,2 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The mathematics: fitting control lattices to scans. numpy, scipy and open3d only; never FreeCAD."""
+"""The mathematics: fitting control lattices to scans. numpy and scipy only; never FreeCAD.
+
+``face/`` registers one face at a time, ``joint/`` the whole part at once, ``rigid/`` finds the pose of the scan. Here
+in the open is what they share: `splines`, `face_geometry` and `trims` (a face as arrays), `uv_raster` and `footpoints`
+(scan points over a face), `projection` (exact closest points), `motions` (rigid motions), `scan_sketch` (a few thousand
+even scan points with normals) with `normal_sides`, `scan_normals`, `robust_weights`.
+"""

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .raster import Raster
-from .splines import Array
+from .arrays import Array
+from .uv_raster import Raster
 
 Index = NDArray[np.intp]
 Located = tuple[Array, Array, Array, NDArray[np.bool_]]
@@ -25,8 +25,8 @@ _COLUMNS = ("index", "x", "y", "height")
 _LONGEST_STEP = 4.0
 _LEAST_SPREAD = 0.2
 """Foot points closer to the centre of curvature than this share of the radius are not unique enough to be used."""
-_UNKNOWN, _FAR, _NEAR = 0, 1, 2
-_SETTLED = 1.5
+_UNKNOWN_VOXEL, _FAR_VOXEL, _NEAR_VOXEL = 0, 1, 2
+_TRUSTED_CELLS = 1.5
 """A foot point this many cells from the frame it was found in is not trusted."""
 
 
@@ -163,7 +163,7 @@ def _curved_locator(raster: Raster, reach: float) -> Locator:
     edge = max((np.prod(extent) / _MOST_VOXELS) ** (1 / 3), 2 * raster.size.min())
     count = np.ceil(extent / edge).astype(np.intp)
     farthest = margin + edge
-    known = np.full(int(np.prod(count)), _UNKNOWN, dtype=np.int8)
+    known = np.full(int(np.prod(count)), _UNKNOWN_VOXEL, dtype=np.int8)
     seeds = np.empty((8, len(known)))
 
     def locate(points: Array) -> tuple[Index, Array, Array, Array, NDArray[np.bool_]]:
@@ -175,14 +175,14 @@ def _curved_locator(raster: Raster, reach: float) -> Locator:
         i, j, k = ((points - low[:, None]) * (1 / edge)).astype(np.intp)
         voxel = (i * count[1] + j) * count[2] + k
         state = known.take(voxel)
-        new = np.unique(voxel[state == _UNKNOWN])
+        new = np.unique(voxel[state == _UNKNOWN_VOXEL])
         if len(new):
             centre = low + edge * (np.stack(np.unravel_index(new, tuple(count)), axis=1) + 0.5)
             distance, nearest = tree.query(centre)
-            known[new] = np.where(distance <= farthest, _NEAR, _FAR)
+            known[new] = np.where(distance <= farthest, _NEAR_VOXEL, _FAR_VOXEL)
             seeds[:, new] = _linear(raster, centre.T, nearest)
             state = known.take(voxel)
-        close = np.flatnonzero(state == _NEAR)
+        close = np.flatnonzero(state == _NEAR_VOXEL)
         if len(close) < len(state):
             index, points, voxel = index[close], points.take(close, axis=1), voxel[close]
         s = seeds.take(voxel, axis=1)
@@ -237,7 +237,7 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
         if left:
             cell = _cell(raster, x, y)
     height = z - 0.5 * (c[12] * x1 * s1 + c[13] * x2 * s2)
-    return x, y, height, unique & (np.maximum(np.abs(dx), np.abs(dy)) <= _SETTLED)
+    return x, y, height, unique & (np.maximum(np.abs(dx), np.abs(dy)) <= _TRUSTED_CELLS)
 
 
 def _cell(raster: Raster, x: Array, y: Array) -> Index:

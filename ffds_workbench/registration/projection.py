@@ -10,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .raster import dot
-from .splines import Array, SplineSurface
+from .arrays import Array
+from .splines import SplineSurface
+from .uv_raster import dot
 
 _CHUNK = 20000
-_SEEDS = 96
-_STEPS = 25
-_CONVERGED = 1e-9
+_SEED_POINTS = 96
+_NEWTON_STEPS = 25
+_CONVERGED_STEP = 1e-9
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,8 @@ def project(surface: SplineSurface, points: Array, displacement: SplineSurface |
     terms = [surface] if displacement is None else [surface, displacement]
     fields = [[t.derivative(*order) for t in terms] for order in ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))]
     u0, u1, v0, v1 = surface.range
-    grid = np.stack(np.meshgrid(np.linspace(u0, u1, _SEEDS), np.linspace(v0, v1, _SEEDS), indexing="ij"), axis=-1)
+    grid = np.stack(np.meshgrid(np.linspace(u0, u1, _SEED_POINTS), np.linspace(v0, v1, _SEED_POINTS), indexing="ij"),
+                    axis=-1)
     grid = grid.reshape(-1, 2)
     tree = cKDTree(_sum(fields[0], grid))
     parts = [_project(surface, fields, points[k : k + _CHUNK], grid[tree.query(points[k : k + _CHUNK])[1]])
@@ -61,7 +63,7 @@ def _project(surface: SplineSurface, fields: list[list[SplineSurface]], points: 
     foot = _sum(fields[0], uv)
     squared = dot(points - foot, points - foot)
     damping = np.full(len(points), 1e-6)
-    for _ in range(_STEPS):
+    for _ in range(_NEWTON_STEPS):
         s_u, s_v, s_uu, s_uv, s_vv = (_sum(f, uv) for f in fields[1:])
         r = points - foot
         e, f, g = dot(s_u, s_u), dot(s_u, s_v), dot(s_v, s_v)
@@ -79,7 +81,7 @@ def _project(surface: SplineSurface, fields: list[list[SplineSurface]], points: 
         uv, foot = np.where(better[:, None], trial, uv), np.where(better[:, None], moved, foot)
         squared = np.where(better, trial_squared, squared)
         damping = np.where(better, damping * 0.1, np.maximum(damping * 10, 1e-3))
-        if step < _CONVERGED:
+        if step < _CONVERGED_STEP:
             break
     normal = np.cross(_sum(fields[1], uv), _sum(fields[2], uv))
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]

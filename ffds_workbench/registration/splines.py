@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
-Array = NDArray[np.float64]
+from .arrays import Array
+
 DEGREE = 3
-_SMALL = 40000
+_DENSE_ENTRIES = 40000
 _CHUNK = 4096
 
 
@@ -40,7 +41,7 @@ def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int =
     Meant for grids, where it is small. Scattered points go through `basis_rows`.
     """
     count = len(knots) - degree - 1
-    if derivative == 0 and count * len(x) > _SMALL:
+    if derivative == 0 and count * len(x) > _DENSE_ENTRIES:
         return np.asarray(BSpline.design_matrix(x, knots, degree).toarray())
     return np.asarray(BSpline.construct_fast(knots, np.eye(count), degree)(x, nu=derivative))
 

@@ -16,7 +16,7 @@ import Part
 from ..brep import topology
 from ..brep.topology import Topology
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .boolean_check import BodyErrors, boolean_checks, total
 
 GAP_LIMIT = 1e-4

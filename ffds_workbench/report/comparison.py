@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import Part
 
-from ..brep.built import built_geometry
+from ..brep.rebuilt_faces import built_geometry
 from ..brep.workpiece import Workpiece
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .deviation import FaceDeviation, measure, measure_again, reach_of
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..registration.face import FaceGeometry
+from ..registration.face_geometry import FaceGeometry
 from ..registration.footpoints import surface_coordinates
-from ..registration.raster import Raster, make_raster
+from ..registration.uv_raster import Raster, make_raster
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from ..registration.face import FaceRegistration
 from ..registration.joint import EdgeRegistration, JointFace, JointRegistration, SensorProfile
-from ..registration.result import FaceRegistration
 from ..scan.cloud import PointCloud
 from .deviation import FaceDeviation
 from .statistics import statistics

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 
 _PAIRS = 300_000
 _BINS_PER_OCTAVE = 3

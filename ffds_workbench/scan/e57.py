@@ -50,8 +50,6 @@ class _Field:
 
     def decode(self, data: bytes, count: int) -> Array:
         """The first ``count`` numbers of the column's byte stream."""
-        if 8 * len(data) < count * self.bits:
-            raise ValueError("a column is cut off")
         if self.real:
             return np.frombuffer(data, f"<f{self.bits // 8}", count).astype(np.float64)
         if self.bits == 0:
@@ -91,9 +89,12 @@ def read(path: Path) -> Array:
         if len(data) < length or page <= _CHECKSUM or length % page:
             raise ValueError("the file is cut off")
         content = _Content(data[:length], page)
-        root = ElementTree.fromstring(content.bytes(content.logical(xml_offset), xml_length))
+        text = content.bytes(content.logical(xml_offset), xml_length)
+        if b"<!DOCTYPE" in text.replace(b"\0", b""):  # entities may stand for far more text than the file holds
+            raise ValueError("the text declares a type")
+        root = ElementTree.fromstring(text)
         scans = [_scan(content, scan) for scan in root.iterfind(f"{_NAMESPACE}data3D/{_NAMESPACE}vectorChild")]
-    except (ValueError, KeyError, TypeError, struct.error, ElementTree.ParseError) as error:
+    except (ValueError, LookupError, TypeError, OverflowError, struct.error, ElementTree.ParseError) as error:
         raise InputError(f"The scan {path} is damaged or cut off: its E57 sections cannot be read.") from error
     return np.concatenate([np.empty((0, 6)), *scans])
 
@@ -110,7 +111,7 @@ class _Content:
         return physical - _CHECKSUM * (physical // self._page)
 
     def bytes(self, start: int, length: int) -> bytes:
-        if start + length > len(self._data):
+        if start < 0 or length < 0 or start + length > len(self._data):
             raise ValueError("a section reaches beyond the file")
         return self._data[start : start + length]
 
@@ -124,6 +125,8 @@ def _scan(content: _Content, scan: ElementTree.Element) -> Array:
     fields = [_field(item) for item in prototype]
     count = int(points.get("recordCount", "0"))
     streams = _streams(content, int(points.get("fileOffset", "0")), fields, count)
+    if not any(field.bits for field in fields if field.name in (*_CARTESIAN, *_SPHERICAL)):
+        raise ValueError("no coordinate takes any room")  # and nothing bounds their number
     wanted = {*_CARTESIAN, *_SPHERICAL, *_NORMALS, "cartesianInvalidState", "sphericalInvalidState"}
     columns = {field.name: field.decode(stream, count) for field, stream in zip(fields, streams, strict=True)
                if field.name in wanted}
@@ -144,6 +147,8 @@ def _field(item: ElementTree.Element) -> _Field:
     if item.get("type") == "Float":
         return _Field(name, 32 if item.get("precision") == "single" else 64, True)
     low, high = int(item.get("minimum", -(2**63))), int(item.get("maximum", 2**63 - 1))
+    if not -(2**63) <= low <= high < 2**63:
+        raise ValueError("no range of integers")
     scaled = item.get("type") == "ScaledInteger"
     return _Field(name, (high - low).bit_length(), False, low, float(item.get("scale", 1)) if scaled else 1.0,
                   float(item.get("offset", 0)) if scaled else 0.0)
@@ -153,22 +158,27 @@ def _streams(content: _Content, physical: int, fields: list[_Field], count: int)
     """The byte stream of each column, put together from the packets of the section at ``physical``."""
     start = content.logical(physical)
     kind, length, first, _ = _SECTION.unpack(content.bytes(start, _SECTION.size))
-    if kind != _VECTOR_SECTION:
+    if kind != _VECTOR_SECTION or count < 0:
         raise ValueError("not a section of points")
     end, position = start + length, content.logical(first)
     parts: list[list[bytes]] = [[] for _ in fields]
-    needed = [-(-count * field.bits // 8) for field in fields]
-    while position < end and any(sum(map(len, part)) < size for part, size in zip(parts, needed, strict=True)):
+    missing = [-(-count * field.bits // 8) for field in fields]
+    while position < end and any(size > 0 for size in missing):
         kind, _, length = struct.unpack("<BBH", content.bytes(position, 4))
+        if length % 4 != 3:
+            raise ValueError("packets are made of four bytes each")
         packet = content.bytes(position, length + 1)
         if kind == _DATA_PACKET:
             number = struct.unpack_from("<H", packet, 4)[0]
             lengths = struct.unpack_from(f"<{number}H", packet, 6)
             place = 6 + 2 * number
-            for part, size in zip(parts, lengths, strict=True):
+            for column, (part, size) in enumerate(zip(parts, lengths, strict=True)):
                 part.append(packet[place : place + size])
+                missing[column] -= len(part[-1])
                 place += size
         position += length + 1
+    if any(size > 0 for size in missing):
+        raise ValueError("a column is cut off")
     return [b"".join(part) for part in parts]
 
 

@@ -24,6 +24,8 @@ _READERS: dict[str, Callable[[Path], NDArray[np.float64]]] = {
     ".xyz": text.read, ".asc": text.read, ".txt": text.read, ".csv": text.read, ".pts": text.read,
 }
 FORMATS = tuple(_READERS)
+_FARTHEST = 1e12
+"""Theory: beyond this a double of 53 bits tells coordinates no closer than 1e-4 apart, finer than any scanner in mm."""
 
 
 def read(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
@@ -60,15 +62,16 @@ def _read_one(path: Path) -> PointCloud:
     try:
         if path.stat().st_size == 0:
             raise InputError(f"The scan {path} is empty.")
-        rows = reader(path)
+        with np.errstate(all="ignore"):  # what is not finite is dropped below
+            rows = reader(path)
     except OSError as error:
         raise InputError(f"The scan {path} cannot be read: {error.strerror or error}.") from error
     return _usable(path, rows)
 
 
 def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
-    """Finite points only; a file with no two different points is refused."""
-    finite = np.isfinite(rows[:, :3]).all(axis=1)
+    """Finite points only, and none that is out of this world; a file with no two different points is refused."""
+    finite = (np.abs(rows[:, :3]) < _FARTHEST).all(axis=1)
     points = np.ascontiguousarray(rows[finite, :3], dtype=np.float64)
     dropped = int(len(rows) - len(points))
     if len(points) == 0:

@@ -25,7 +25,8 @@ def columns(names: Sequence[str]) -> list[int]:
 
 def unit_normals(rows: Array) -> Array | None:
     """Rows (n, 3) as unit normals, zero where a row is none; None where they are no normals."""
-    length = np.linalg.norm(rows, axis=1)
+    with np.errstate(over="ignore"):  # columns of anything
+        length = np.linalg.norm(rows, axis=1)
     unit = np.abs(length - 1.0) < _UNIT
     if unit.sum() <= _NEARLY_ALL * (length != 0.0).sum():
         return None

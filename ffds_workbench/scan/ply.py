@@ -6,13 +6,14 @@ Read here and not with open3d because open3d fills the missing rows of a truncat
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import accumulate
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from . import normals
+from . import normals, rows
 
 _TYPES = {"char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
           "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
@@ -28,8 +29,10 @@ class _Element:
     properties: list[tuple[str, str]] = field(default_factory=list)
     has_list: bool = False
 
-    def dtype(self, order: str) -> np.dtype:
-        return np.dtype([(name, order + kind) for name, kind in self.properties])
+    @property
+    def places(self) -> list[int]:
+        """Where in a row each property begins, in bytes, and the length of the row."""
+        return [0, *accumulate(int(kind[1]) for _, kind in self.properties)]
 
 
 def read(path: Path) -> NDArray[np.float64]:
@@ -54,16 +57,13 @@ def read(path: Path) -> NDArray[np.float64]:
     if element.has_list or len(set(names)) < len(names) or any(other.has_list for other in before):
         raise InputError(f"The scan {path} has vertices of an unusual layout: save it as plain points.")
     columns = [*map(names.index, "xyz"), *normals.columns(names)]
+    if element.count == 0:
+        return np.empty((0, 3))
     if encoding == "ascii":
-        return _ascii(path, data[start:], element, sum(other.count for other in before), columns)
-    order = _ORDER[encoding]
-    start += sum(other.count * other.dtype(order).itemsize for other in before)
-    dtype = element.dtype(order)
-    found = (len(data) - start) // dtype.itemsize
-    if found < element.count:
-        raise _truncated(path, element.count, max(found, 0))
-    vertices = np.frombuffer(data, dtype, element.count, start)
-    return np.stack([vertices[names[column]].astype(np.float64) for column in columns], axis=1)
+        return rows.text(path, data, start, element.count, len(names), columns, sum(other.count for other in before))
+    start += sum(other.count * other.places[-1] for other in before)
+    fields = [(element.places[column], _ORDER[encoding] + element.properties[column][1]) for column in columns]
+    return rows.binary(path, data, start, element.count, element.places[-1], fields)
 
 
 def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
@@ -80,7 +80,7 @@ def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
             if words[:1] == ["format"]:
                 encoding = words[1]
             elif words[:1] == ["element"]:
-                elements.append(_Element(words[1], int(words[2])))
+                elements.append(_Element(words[1], rows.count_of(words[2])))
             elif words[:2] == ["property", "list"]:
                 elements[-1].has_list = True
             elif words[:1] == ["property"]:
@@ -90,21 +90,3 @@ def _header(path: Path, data: bytes) -> tuple[str, list[_Element], int]:
     if encoding != "ascii" and encoding not in _ORDER:
         raise InputError(f"The scan {path} is damaged: its PLY header names no known format.")
     return encoding, elements, newline + 1
-
-
-def _ascii(path: Path, data: bytes, element: _Element, skip: int, columns: list[int]) -> NDArray[np.float64]:
-    lines = [line for line in data.decode("latin-1").splitlines() if line.strip()][skip : skip + element.count]
-    if len(lines) < element.count:
-        raise _truncated(path, element.count, len(lines))
-    if not lines:
-        return np.empty((0, 3))
-    if len(lines[-1].split()) < len(element.properties):
-        raise _truncated(path, element.count, len(lines) - 1)
-    try:
-        return np.loadtxt(lines, usecols=columns, ndmin=2, comments=None)
-    except ValueError as error:
-        raise InputError(f"The scan {path} is damaged: a vertex is not made of numbers.") from error
-
-
-def _truncated(path: Path, promised: int, found: int) -> InputError:
-    return InputError(f"The scan {path} is cut off: its header promises {promised} points, {found} are there.")

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..errors import RefusedError
-from ..registration.joint.sensor import SensorProfile
-from ..registration.splines import Array
+from ..registration.arrays import Array
+from ..registration.joint import SensorProfile
 from .covariogram import covariogram, fit
 
 Index = NDArray[np.intp]
 
-_FEWEST = 1000
+_LEAST_POINTS = 1000
 _MAD, _TRIM = 1.4826, 4.5
 _MOST_LOST = 0.3
 _PER_CELL = 4.0
@@ -31,7 +31,7 @@ _OTHER_SCANS = 0.5
 
 
 @dataclass(frozen=True)
-class _Cells:
+class _NoiseCells:
     """Points (n,) in small cells, with their heights there.
 
     Attributes
@@ -63,15 +63,15 @@ def measure(scans: Sequence[Array], flat: bool = False, name: str = "measured") 
     RefusedError : too few points, no plane, or scans that do not show the same thing
     """
     for scan in scans:
-        if len(scan) < _FEWEST:
-            raise RefusedError(f"The scan has {len(scan)} points: measuring a sensor takes at least {_FEWEST}.")
+        if len(scan) < _LEAST_POINTS:
+            raise RefusedError(f"The scan has {len(scan)} points: measuring a sensor takes at least {_LEAST_POINTS}.")
     if flat or len(scans) == 1:
         found = [_one(_flat_cells(scan), name) for scan in scans]
         return _mean(found, name)
     return _repeated(scans, name)
 
 
-def _one(cells: _Cells, name: str) -> SensorProfile:
+def _one(cells: _NoiseCells, name: str) -> SensorProfile:
     shot = np.zeros(len(cells.cell), dtype=np.intp)
     return _profile(cells, shot, 1, name)
 
@@ -84,7 +84,7 @@ def _mean(profiles: Sequence[SensorProfile], name: str) -> SensorProfile:
     return SensorProfile(float(np.sqrt(white)), float(np.sqrt(shared)), float(length), name)
 
 
-def _flat_cells(scan: Array) -> _Cells:
+def _flat_cells(scan: Array) -> _NoiseCells:
     """Cells on the plane of a scan, without outliers."""
     kept = np.ones(len(scan), dtype=bool)
     for _ in range(6):
@@ -99,8 +99,8 @@ def _flat_cells(scan: Array) -> _Cells:
     cell = np.unique(np.floor(local[:, 1:] / size), axis=0, return_inverse=True)[1]
     count = np.bincount(cell)
     place = np.stack([np.bincount(cell, local[:, k]) / count for k in (1, 2)], axis=1)
-    return _Cells(cell, local[:, 0] - local[:, 0].mean(), np.column_stack([place, np.zeros(len(place))]),
-                  np.tile([0.0, 0.0, 1.0], (len(place), 1)), size)
+    return _NoiseCells(cell, local[:, 0] - local[:, 0].mean(), np.column_stack([place, np.zeros(len(place))]),
+                       np.tile([0.0, 0.0, 1.0], (len(place), 1)), size)
 
 
 def _repeated(scans: Sequence[Array], name: str) -> SensorProfile:
@@ -115,11 +115,12 @@ def _repeated(scans: Sequence[Array], name: str) -> SensorProfile:
                            "sensor.")
     number = np.cumsum(full) - 1
     inside = full[cells.cell]
-    cells = _Cells(number[cells.cell[inside]], cells.height[inside], cells.place[full], cells.normal[full], cells.size)
+    cells = _NoiseCells(number[cells.cell[inside]], cells.height[inside], cells.place[full], cells.normal[full],
+                        cells.size)
     return _profile(cells, shot[inside], len(scans), name)
 
 
-def _surface_cells(points: Array, scans: int) -> tuple[_Cells, Index]:
+def _surface_cells(points: Array, scans: int) -> tuple[_NoiseCells, Index]:
     """Cells over any surface, on a grid seen along the axis that the normal is nearest to, so that noise does not cut
     them, and which points they hold: no outliers, and none where the surface is not smooth."""
     size = _cell_size(points, scans)
@@ -133,7 +134,7 @@ def _surface_cells(points: Array, scans: int) -> tuple[_Cells, Index]:
     normal, spread = _normals(points, place)
     height = np.einsum("nx,nx->n", points - place[cell], normal[cell])
     kept = (spread < _ROUGH * np.median(spread))[cell] & _trimmed(height)
-    return _Cells(cell[kept], height[kept], place, normal, size), np.flatnonzero(kept)
+    return _NoiseCells(cell[kept], height[kept], place, normal, size), np.flatnonzero(kept)
 
 
 def _normals(points: Array, places: Array) -> tuple[Array, Array]:
@@ -157,7 +158,7 @@ def _cell_size(points: Array, scans: int) -> float:
     return float(np.sqrt(_PER_CELL * scans * np.pi / _NEIGHBOURS) * reach)
 
 
-def _profile(cells: _Cells, shot: Index, scans: int, name: str) -> SensorProfile:
+def _profile(cells: _NoiseCells, shot: Index, scans: int, name: str) -> SensorProfile:
     """White and correlated noise from the heights in cells and the number (n,) of the scan that each point is of."""
     flat = cells.cell * scans + shot
     count = np.bincount(flat, minlength=len(cells.place) * scans).astype(float)
@@ -178,7 +179,7 @@ def _profile(cells: _Cells, shot: Index, scans: int, name: str) -> SensorProfile
     return SensorProfile(float(np.sqrt(white)), float(np.sqrt(variance)), length, name)
 
 
-def _without_motion(height: Array, cells: _Cells) -> Array:
+def _without_motion(height: Array, cells: _NoiseCells) -> Array:
     """Heights without what a small rigid motion of the scan explains."""
     rows = np.hstack([np.cross(cells.place - cells.place.mean(axis=0), cells.normal), cells.normal])
     return height - rows @ np.linalg.lstsq(rows, height, rcond=1e-9)[0]

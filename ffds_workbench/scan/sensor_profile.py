@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
-from ..registration.joint.sensor import SensorProfile
+from ..registration.joint import SensorProfile
 
 PRESETS = {
     "white": SensorProfile(),

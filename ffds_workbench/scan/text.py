@@ -8,7 +8,11 @@ the fourth to sixth; whether those are normals or colours, their numbers tell.
 """
 from __future__ import annotations
 
+import io
 import re
+from array import array
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +23,31 @@ from . import normals
 
 _COMMENTS = ("#", "//", "%", "!")
 _MISSING = {"", "-", "--", "nan", "null", "none", "n/a", "na", "nodata"}
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$|[-+]?(nan|inf|infinity)$", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?$|[-+]?(nan|inf|infinity)$", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?$")
+_PROMISE = re.compile("[0-9]{1,18}")
+_HEADER_LINES, _SAMPLE_LINES = 50, 200
+_LINE_START = 4096
+"""Characters of a line that are looked at to tell the layout; a row of points is no longer."""
+
+
+@dataclass(frozen=True)
+class _Beginning:
+    """What the first lines of a file tell.
+
+    Attributes
+    ----------
+    header : the line that names the columns, "" without
+    promised : the number of points, None where the file does not say it
+    start, lines : what goes before the points: so many bytes, in so many lines
+    sample : the first rows of points
+    """
+
+    header: str
+    promised: int | None
+    start: int
+    lines: int
+    sample: list[str]
 
 
 def read(path: Path) -> NDArray[np.float64]:
@@ -30,58 +57,58 @@ def read(path: Path) -> NDArray[np.float64]:
     ------
     InputError : not a text of points, or fewer points than its first line promises
     """
-    numbered = [(number, line) for number, line in enumerate(_text(path).splitlines(), 1) if line.strip()]
-    header, numbered = _split_header(numbered)
-    promised = None
-    if len(numbered) > 1 and numbered[0][1].strip().isdigit():
-        promised = int(numbered[0][1])
-        numbered = numbered[1:]
-    if not numbered:
+    data = _text(path)
+    beginning = _beginning(data)
+    if not beginning.sample:
         raise InputError(f"The scan {path} is no text of points: no line starts with a number.")
-    lines = [line for _, line in numbered]
-    separator, decimal_comma = _layout(lines)
-    columns, of_normals = _columns(header, separator, lines[0])
+    separator, decimal_comma = _layout(beginning.sample)
+    columns, of_normals = _columns(beginning.header, separator, beginning.sample[0])
+    body = data[beginning.start :]
     if decimal_comma:
-        lines = [line.replace(",", ".") for line in lines]
-    rows = _parse(path, lines, [number for number, _ in numbered], separator, columns, of_normals)
-    if promised is not None and len(rows) < promised:
-        raise InputError(f"The scan {path} is cut off: its first line promises {promised} points, "
+        body = body.replace(b",", b".")
+    rows = _parse(path, body, beginning.lines, separator, columns, of_normals)
+    if beginning.promised is not None and len(rows) < beginning.promised:
+        raise InputError(f"The scan {path} is cut off: its first line promises {beginning.promised} points, "
                          f"{len(rows)} are there.")
     return rows
 
 
-def _text(path: Path) -> str:
+def _text(path: Path) -> bytes:
+    """The text in UTF-8, its lines ending as they do in Unix."""
     data = path.read_bytes()
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", errors="replace")
-    if b"\x00" in data[:4096]:
+        data = data.decode("utf-16", errors="replace").encode("utf-8", errors="replace")
+    elif b"\x00" in data[:4096]:
         raise InputError(f"The scan {path} is not a text of points: it holds binary data.")
-    return data.decode("utf-8-sig", errors="replace")
+    data = data.removeprefix(b"\xef\xbb\xbf")
+    return data if b"\n" in data else data.replace(b"\r", b"\n")
 
 
-def _split_header(numbered: list[tuple[int, str]]) -> tuple[str, list[tuple[int, str]]]:
-    """The line that names the columns ("" without), and the lines of points; comments are dropped.
-
-    The header may be a comment itself ("//X Y Z"): the last line before the points that names x, y and z.
-    """
-    header = ""
-    first = len(numbered)
-    for index, (_, line) in enumerate(numbered):
-        stripped = line.strip()
-        if stripped.startswith(_COMMENTS) or not _starts_like_a_point(stripped):
-            names = _names(stripped.lstrip("#/%! "))
-            if {"x", "y", "z"} <= set(names):
-                header = stripped.lstrip("#/%! ")
-            if index < 50:
-                continue
-        first = index
-        break
-    body = [(number, line) for number, line in numbered[first:] if not line.lstrip().startswith(_COMMENTS)]
-    return header, body
+def _beginning(data: bytes) -> _Beginning:
+    """The header may be a comment itself ("//X Y Z"): the last line before the points that names x, y and z."""
+    stream = io.BytesIO(data)
+    header, promised = "", None
+    sample: list[str] = []
+    start = lines = place = 0
+    for number, raw in enumerate(stream):
+        place += len(raw)
+        line = raw[:_LINE_START].decode("utf-8", errors="replace").strip()
+        is_comment = line.startswith(_COMMENTS)
+        if not sample and number < _HEADER_LINES and (is_comment or (line and not _starts_like_a_point(line))):
+            names = line.lstrip("#/%! ")
+            header = names if {"x", "y", "z"} <= set(_names(names)) else header
+        elif line and not is_comment:
+            sample.append(line)
+        if not sample or (len(sample) == 1 and promised is None and _PROMISE.fullmatch(line)):
+            promised = int(sample.pop()) if sample else promised
+            start, lines = place, number + 1
+        if len(sample) == _SAMPLE_LINES:
+            break
+    return _Beginning(header, promised, start, lines, sample)
 
 
 def _starts_like_a_point(line: str) -> bool:
-    first = re.split(r"[\s;,]+", line)[0].strip("\"'").lower()
+    first = re.split(r"[\s;,]+", line, maxsplit=1)[0].strip("\"'").lower()
     return first in _MISSING or _NUMBER.match(first) is not None
 
 
@@ -113,28 +140,35 @@ def _columns(header: str, separator: str | None, first: str) -> tuple[list[int],
     return [0, 1, 2], [3, 4, 5] if len(first.split(separator)) >= 6 else []
 
 
-def _parse(path: Path, lines: list[str], numbers: list[int], separator: str | None,
-           columns: list[int], of_normals: list[int]) -> NDArray[np.float64]:
+def _parse(path: Path, body: bytes, first: int, separator: str | None, columns: list[int],
+           of_normals: list[int]) -> NDArray[np.float64]:
+    """The rows of points that follow the ``first`` lines of the file."""
+    with_comments = any(mark.encode() in body for mark in _COMMENTS)
     for wanted in ([*columns, *of_normals], columns):
+        lines: Iterable[str] = io.TextIOWrapper(io.BytesIO(body), "utf-8", errors="replace")
+        if with_comments:
+            lines = (line for line in lines if not line.lstrip().startswith(_COMMENTS))
         try:
             return np.loadtxt(lines, delimiter=separator, usecols=wanted, ndmin=2, comments=None)
         except ValueError:
             continue
-    return _parse_slowly(path, lines, numbers, separator, columns)
+    return _parse_slowly(path, body, first, separator, columns)
 
 
-def _parse_slowly(path: Path, lines: list[str], numbers: list[int], separator: str | None,
+def _parse_slowly(path: Path, body: bytes, first: int, separator: str | None,
                   columns: list[int]) -> NDArray[np.float64]:
     """Line by line: missing values become NaN, and what is no point is named with its line."""
-    rows = np.empty((len(lines), 3))
-    for row, (line, number) in enumerate(zip(lines, numbers, strict=True)):
-        fields = [field.strip().strip("\"'") for field in line.split(separator)]
-        if len(fields) <= max(columns):
+    values = array("d")
+    last = max(columns)
+    for number, line in enumerate(io.TextIOWrapper(io.BytesIO(body), "utf-8", errors="replace"), first + 1):
+        if not line.strip() or line.lstrip().startswith(_COMMENTS):
+            continue
+        fields = line.split(separator, last + 1)
+        if len(fields) <= last:
             raise InputError(f"The scan {path} is damaged or no text of points: line {number} has fewer than "
-                             f"{max(columns) + 1} values.")
-        for axis, column in enumerate(columns):
-            rows[row, axis] = _number(path, fields[column], number)
-    return rows
+                             f"{last + 1} values.")
+        values.extend(_number(path, fields[column].strip().strip("\"'"), number) for column in columns)
+    return np.frombuffer(values, dtype=float).reshape(-1, len(columns))
 
 
 def _number(path: Path, field: str, line_number: int) -> float:

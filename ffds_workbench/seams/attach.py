@@ -14,7 +14,7 @@ import numpy as np
 import Part
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .chains import Stretch
 from .find import NAMED_TOLERANCE
 from .frames import torch_frames

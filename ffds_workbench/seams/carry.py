@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import Part
 
-from ..brep.files import Model
+from ..brep.model_files import Model
 from ..errors import InputError
 from ..output import check_writable, replacing
 from .attach import Motion, motion

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .weldment import Weldment
 
 _SAME_PLACE = 0.02

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 
 _LEAST_SUM = 0.1
 """Length of n1 + n2 below which the faces are back to back, or 6° from it, and the bisector means nothing."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .chains import Stretch
 from .weldment import Weldment
 

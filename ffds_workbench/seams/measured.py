@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .chains import Seam
 from .offsets import Offsets, nominal_stations, offsets
 from .settings import SeamSettings

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .frames import rotation_between
 from .sampling import Places, by_arc_length
 from .settings import SeamSettings

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .measured import MeasuredSeam, SeamLimits
 from .plan import SeamPlan
 

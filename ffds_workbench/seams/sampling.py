@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .chains import Seam, Stretch
 from .weldment import Weldment
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from . import frames
 from .chains import Seam, Stretch
 from .sampling import Places, sample

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .frames import quaternions
 from .measured import MeasuredSeam
 

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..errors import InputError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .attach import Motion
 from .programs.conventions import from_kuka_angles, kuka_angles
 

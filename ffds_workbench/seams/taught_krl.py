@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import InputError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .attach import Motion
 from .programs.conventions import from_kuka_angles, kuka_angles
 from .programs.moves import numbers

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 from .chains import Stretch
 from .stations import Stations
 

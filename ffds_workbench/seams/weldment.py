@@ -14,10 +14,10 @@ import FreeCAD
 import numpy as np
 import Part
 
-from ..brep import files, topology
-from ..brep.files import Model
+from ..brep import topology
+from ..brep.model_files import Model, model_file
 from ..errors import InputError, RefusedError
-from ..registration.splines import Array
+from ..registration.arrays import Array
 
 _INWARDS = 1e-4
 """Step in fractions away from an edge's end where its face has no normal: the apex of a cone."""
@@ -63,7 +63,7 @@ class Weldment:
     @classmethod
     def of(cls, model: Model | Part.Shape | object) -> Weldment:
         """The weldment of a model, a shape, or a document object where it stands."""
-        return cls(model.shape if isinstance(model, Model) else files.from_object(model).shape)
+        return cls(model.shape if isinstance(model, Model) else model_file.from_object(model).shape)
 
     @cached_property
     def parts(self) -> tuple[tuple[int, ...], ...]:

@@ -18,8 +18,8 @@ _freecad.activate()
 import FreeCAD
 import Part
 
-from ffds_workbench.brep import files
-from ffds_workbench.brep.step_text import Decoration
+from ffds_workbench.brep.model_files import model_file
+from ffds_workbench.brep.model_files.step_colours import Decoration
 
 FOLDER = Path(__file__).resolve().parent
 LENGTH, WIDTH, HEIGHT, THICKNESS, RADIUS = 110.0, 70.0, 55.0, 3.0, 4.0
@@ -111,7 +111,7 @@ def main() -> None:
     """Write both files."""
     shape = nominal()
     colours = tuple(ACCENT if _is_hole_wall(face) else STEEL for face in shape.Faces)
-    files.write(files.Model(shape, "Bracket", Decoration(colours=colours)), FOLDER / "bracket.step")
+    model_file.write(model_file.Model(shape, "Bracket", Decoration(colours=colours)), FOLDER / "bracket.step")
     write_ply(FOLDER / "bracket_scan.ply", scan(shape))
 
 

@@ -14,7 +14,7 @@ from ffds_workbench.benchmark import warps
 from ffds_workbench.benchmark.families import WARPS, deformation, make_case
 from ffds_workbench.benchmark.parts import FAMILIES
 from ffds_workbench.benchmark.profile import Piece, Profile
-from ffds_workbench.brep.simulation import edge_points
+from ffds_workbench.brep.simulated_scan import edge_points
 from ffds_workbench.scan import files
 
 HAT = Profile((Piece(15), Piece(8, 1.4), Piece(20), Piece(8, -1.4), Piece(30), Piece(8, -1.4), Piece(20), Piece(8, 1.4),

@@ -11,9 +11,9 @@ from ffds_workbench.benchmark import page, paper_case, paper_figures
 from ffds_workbench.benchmark.interleaved import best_seconds, median_seconds
 from ffds_workbench.benchmark.paper_methods import METHODS, Judge
 from ffds_workbench.benchmark.sheet import SIZE, height, nominal
-from ffds_workbench.registration import ffds
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.result import FaceRegistration
+from ffds_workbench.registration.face import ffds
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.face_result import FaceRegistration
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_a_perfect_result_reaches_the_floor_and_no_less(virtual):
     u, v = np.linspace(0, 75, 60), np.linspace(0, 70, 60)
     uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
     values = np.column_stack([np.zeros((len(uv), 2)), height(*uv.T)])
-    points = ffds.solve(control, u, v, np.ones((60, 60), dtype=bool), values)
+    points = ffds.solve_lattice(control, u, v, np.ones((60, 60), dtype=bool), values)
     perfect = FaceRegistration("Face1", control.field(points), 0, 1.0, 0.0)
     figures = Judge(virtual).accuracy(perfect)
     assert figures.true_mean < 1e-4 and figures.edge_mean < 4e-3

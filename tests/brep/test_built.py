@@ -7,9 +7,9 @@ import Part
 import pytest
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.built import built_geometry
-from ffds_workbench.brep.displacement import FaceDisplacement
+from ffds_workbench.brep.face_displacement import FaceDisplacement
 from ffds_workbench.brep.rebuild import rebuild
+from ffds_workbench.brep.rebuilt_faces import built_geometry
 
 SHAPES = {"box": Part.makeBox(10, 20, 30), "cylinder": Part.makeCylinder(10, 20), "torus": Part.makeTorus(10, 3),
           "sphere": Part.makeSphere(5)}

@@ -6,11 +6,11 @@ import pytest
 pytest.importorskip("FreeCAD")
 import Part
 
-from ffds_workbench.brep.closing import closing_displacements
+from ffds_workbench.brep.continuity.edge_closing import closing_displacements
 from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.brep.topology import edge_traces
 from ffds_workbench.brep.workpiece import read
-from ffds_workbench.registration.joint.lattice import build_lattices
+from ffds_workbench.registration.joint.surfaces.lattices import build_lattices
 
 MISMATCH = 2e-3
 GAP = 1e-4

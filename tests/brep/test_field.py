@@ -10,11 +10,11 @@ import pytest
 from FreeCAD import Vector
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.cutoff import SPACING, Cutoff, step
-from ffds_workbench.brep.field import local_displacements
-from ffds_workbench.brep.radial import interpolate, wendland
+from ffds_workbench.brep.continuity.cutoff import SPACING, Cutoff, smooth_step
+from ffds_workbench.brep.continuity.edge_samples import inside
+from ffds_workbench.brep.continuity.local_field import local_displacements
+from ffds_workbench.brep.continuity.radial_basis import interpolate, wendland
 from ffds_workbench.brep.rebuild import rebuild
-from ffds_workbench.brep.samples import inside
 from ffds_workbench.brep.topology import edge_traces
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots, greville
@@ -198,7 +198,7 @@ def test_wendland_function_is_the_published_one():
 def test_step_is_smooth_from_0_to_1():
     """Ends exact; third derivative continuous: its steps on a grid are at most 384, the fourth, times the step."""
     t = np.linspace(0, 1, 2001)
-    values = step(t)
+    values = smooth_step(t)
     assert values[0] == 0
     assert values[-1] == 1
     assert (np.diff(values) >= -1e-15).all()

@@ -13,13 +13,14 @@ from FreeCAD import Vector
 from ffds_workbench.benchmark import topology_shapes
 from ffds_workbench.benchmark.families import through_step
 from ffds_workbench.benchmark.parts import FAMILIES
-from ffds_workbench.brep import files, workpiece
-from ffds_workbench.brep.curves import Line, Spline
+from ffds_workbench.brep import workpiece
+from ffds_workbench.brep.continuity.local_field import local_displacements
 from ffds_workbench.brep.edges import PlacedCurve, Trace
-from ffds_workbench.brep.field import local_displacements
-from ffds_workbench.brep.files import Model
-from ffds_workbench.brep.late_start import late
-from ffds_workbench.brep.pcurves import Pcurve
+from ffds_workbench.brep.model_files import model_file
+from ffds_workbench.brep.model_files.model_file import Model
+from ffds_workbench.brep.occt_text.curves import Line, Spline
+from ffds_workbench.brep.occt_text.pcurves import Pcurve
+from ffds_workbench.brep.pcurve_start import delay_pcurve_start
 from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots
 
@@ -42,7 +43,7 @@ def test_step_file_passes_the_boolean_check(mode, tmp_path):
         face = topology_shapes.busiest_and_middle(part)[0]
         moved = local_displacements(part, {face: topology_shapes.bump(part.faces[face])})
         result = rebuild(part, moved, 1e-5)
-    files.write(Model(result, "angle"), tmp_path / "angle.step")
+    model_file.write(Model(result, "angle"), tmp_path / "angle.step")
     back = Part.read(str(tmp_path / "angle.step"))
     back.check(True)
 
@@ -51,7 +52,7 @@ def test_step_file_of_a_free_form_panel_passes_the_boolean_check(tmp_path):
     """Its long edges gape most on the face whose pcurve readers make anew, and worse, unless it is the late one."""
     panel = through_step(FAMILIES["free-form-panel"](np.random.default_rng(3))).shape
     part = workpiece.read(panel)
-    files.write(Model(rebuild(part, topology_shapes.warp(part), 1e-5), "panel"), tmp_path / "panel.step")
+    model_file.write(Model(rebuild(part, topology_shapes.warp(part), 1e-5), "panel"), tmp_path / "panel.step")
     Part.read(str(tmp_path / "panel.step")).check(True)
 
 
@@ -62,7 +63,7 @@ def test_the_start_has_the_largest_distance():
     # A cubic that leaves the line by up to 0.75 e-5 mm, most between the reader's parameters.
     poles = np.array([[0, 5, 0], [10 / 3, 5, 1e-5], [20 / 3, 5, 1e-5], [10, 5, 0]])
     curve = PlacedCurve(Spline(3, np.repeat([0.0, 10.0], 4), poles, False, False), np.eye(4), 0.0, 10.0)
-    later = late(Trace(flat, pcurve), curve, 0.75e-5, np.array([0.0, 5.0, 0.0]))
+    later = delay_pcurve_start(Trace(flat, pcurve), curve, 0.75e-5, np.array([0.0, 5.0, 0.0]))
     distance = np.linalg.norm(later.at(np.linspace(0, 1, 5001)) - curve.at(np.linspace(0, 1, 5001)), axis=1)
     assert distance.argmax() == 0
     assert distance[0] == pytest.approx(1.3 * 0.75e-5, rel=1e-3)
@@ -74,4 +75,4 @@ def test_an_edge_that_gapes_starts_where_it_did():
                          np.stack(np.meshgrid(*[[0, 10 / 3, 20 / 3, 10]] * 2, [0.0], indexing="ij"), axis=-1)[:, :, 0])
     line = Line(np.array([0.0, 5.0]), np.array([1.0, 0.0]))
     own = PlacedCurve(Line(np.array([0.0, 5.0, 1e-3]), np.array([1.0, 0.0, 0.0])), np.eye(4), 0.0, 10.0)
-    assert late(Trace(flat, Pcurve(line, 0.0, 10.0, "")), own, 1e-3, np.array([0.0, 5.0, 1e-3])) is None
+    assert delay_pcurve_start(Trace(flat, Pcurve(line, 0.0, 10.0, "")), own, 1e-3, np.array([0.0, 5.0, 1e-3])) is None

@@ -6,8 +6,8 @@ import Part
 import pytest
 from scipy.interpolate import BSpline
 
-from ffds_workbench.brep.lattice import ParameterBox, approximate
-from ffds_workbench.brep.parameters import closed_form
+from ffds_workbench.brep.face_parameters import closed_form
+from ffds_workbench.brep.surface_fit import ParameterBox, approximate
 from ffds_workbench.registration.splines import basis_rows
 
 

@@ -16,7 +16,7 @@ import pytest
 from FreeCAD import Placement, Rotation, Vector
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.displacement import FaceDisplacement
+from ffds_workbench.brep.face_displacement import FaceDisplacement
 from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.compat import write_step
 from ffds_workbench.errors import RefusedError

@@ -7,10 +7,10 @@ import Part
 import pytest
 from FreeCAD import Placement, Rotation, Vector
 
-from ffds_workbench.brep.curves import Line, Spline, print_curve, read_curve
-from ffds_workbench.brep.instances import Locations, inverse, product, walk
-from ffds_workbench.brep.rewriting import surface_text
-from ffds_workbench.brep.text import Curve3d, dump, parse
+from ffds_workbench.brep.occt_text.curves import Line, Spline, print_curve, read_curve
+from ffds_workbench.brep.occt_text.instances import Locations, inverse, product, walk
+from ffds_workbench.brep.occt_text.records import Curve3d, dump, parse
+from ffds_workbench.brep.occt_text.rewriting import surface_text
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import pytest
 from PySide2 import QtCore, QtTest, QtWidgets
 
 from ffds_workbench.api import registering
+from ffds_workbench.gui import running
 
 SHOTS = os.environ.get("FFDS_SCREENSHOTS")
 
@@ -36,6 +38,21 @@ class Hands:
         while not done():
             assert clock.elapsed() < 1000 * seconds, "it did not happen in time"
             self.wait(50)
+
+    def at_rest(self) -> None:
+        """Wait until the view has stopped turning and moving."""
+        seen: list[str] = []
+
+        def still() -> bool:
+            seen.append(Gui.ActiveDocument.ActiveView.getCamera())
+            return len(seen) > 4 and len(set(seen[-4:])) == 1
+
+        self.until(still, 20)
+
+    def idle(self) -> None:
+        """Wait until nothing is computed in the background any more, and let FreeCAD hear of it."""
+        self.until(lambda: not [thread for thread in threading.enumerate() if thread.name == running.WORKER])
+        self.wait()
 
     def find(self, name: str, kind: type = QtWidgets.QWidget) -> QtWidgets.QWidget:
         """A visible widget by its object name."""

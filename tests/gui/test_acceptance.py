@@ -43,7 +43,7 @@ def open_part_and_scan(hands, part, scan):
     hands.until(lambda: len(document.Objects) == 2, 20)
     hands.wait(300)
     hands.press(QtCore.Qt.Key_0, QtCore.Qt.NoModifier)
-    hands.wait(1000)  # the view turns and moves in steps
+    hands.at_rest()
     return document
 
 
@@ -123,7 +123,7 @@ def replace_the_scan(hands, document, path) -> None:
     def replace(box) -> None:
         hands.click(next(button for button in box.buttons() if button.text().replace("&", "") == "Replace"))
 
-    QtCore.QTimer.singleShot(600, lambda: hands.answer(replace))
+    hands.answer(replace, QtWidgets.QMessageBox)
     hands.choose("FFDS", "Import scan…")
     hands.until(lambda: document.Objects[1].Label == "second", 30)
     hands.wait(300)
@@ -139,6 +139,6 @@ def cancel_in_mid_work(hands, document, item) -> None:
     assert hands.find("FfdsProgressBar") and Gui.Control.activeDialog()
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
     hands.until(lambda: not Gui.Control.activeDialog(), 5)
-    hands.wait(1000)
+    hands.idle()
     assert item.Shape.hashCode() == before and len(document.Objects) == 3 and hands.nodes() == nodes
     assert not document.UndoCount and not document.HasPendingTransaction and item.Faces

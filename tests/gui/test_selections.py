@@ -57,7 +57,7 @@ def look_from_above(hands) -> None:
     view = Gui.ActiveDocument.ActiveView
     view.viewTop()
     view.fitAll()
-    hands.wait(700)
+    hands.at_rest()
 
 
 @pytest.mark.parametrize("make", [nested, body, link])

@@ -11,7 +11,7 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench.gui.preview import Preview, figures
+from ffds_workbench.gui.preview.patches import Preview, figures
 from ffds_workbench.objects.job import Settings
 from ffds_workbench.scan.cloud import PointCloud
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ffds_workbench.brep.lattice import ParameterBox, approximate
-from ffds_workbench.registration.face import FaceGeometry
+from ffds_workbench.brep.surface_fit import ParameterBox, approximate
+from ffds_workbench.registration.face_geometry import FaceGeometry
 
 RADIUS = 20.0
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial import cKDTree
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.registration import ffd, ffds
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.face import FaceGeometry
+from ffds_workbench.registration.face import ffd, ffds
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face_geometry import FaceGeometry
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots, greville
 
 
@@ -45,7 +45,7 @@ def bulge(points):
 def test_undeformed_lattice_is_the_identity(face):
     lattice = ffd.enclose(face, (6, 5, 4))
     points = face.surface.on_grid(np.linspace(0, 75, 7), np.linspace(0, 70, 8)).reshape(-1, 3)
-    moved = ffd.basis(lattice, points) @ lattice.control_points.reshape(-1, 3)
+    moved = ffd.volume_basis(lattice, points) @ lattice.control_points.reshape(-1, 3)
     assert np.abs(moved - points).max() < 1e-12 * 75        # rounding
     assert np.abs((lattice.axes @ lattice.axes.T) - np.eye(3)).max() < 1e-12
 
@@ -53,9 +53,9 @@ def test_undeformed_lattice_is_the_identity(face):
 def test_a_point_depends_on_64_control_points():
     lattice = ffd.enclose(arch(), (8, 8, 8))
     points = arch().surface(np.random.default_rng(0).uniform(5, 65, (50, 2)))
-    assert (np.count_nonzero(ffd.basis(lattice, points), axis=1) <= 64).all()
+    assert (np.count_nonzero(ffd.volume_basis(lattice, points), axis=1) <= 64).all()
     control = np.random.default_rng(1).normal(size=(8, 8, 8, 3))
-    direct = ffd.basis(lattice, points) @ control.reshape(-1, 3)
+    direct = ffd.volume_basis(lattice, points) @ control.reshape(-1, 3)
     assert np.abs(lattice.displacement(control, points) - direct).max() < 1e-12
 
 
@@ -65,8 +65,8 @@ def test_fast_solution_is_the_pseudo_inverse(face):
     source = source_of(face, 400)
     points = source.points[source.on_face]
     values = bulge(points)
-    dense = ffd.solve_dense(lattice, points, values)
-    fast = ffd.solve(lattice, source, values)
+    dense = ffd.solve_volume_dense(lattice, points, values)
+    fast = ffd.solve_volume(lattice, source, values)
     assert np.abs(fast - dense).max() < 1e-7 * np.abs(dense).max()   # the Gram matrix squares the condition, 1e3 to 1e5
     effect = [lattice.displacement(control, points) for control in (dense, fast)]
     assert np.abs(effect[0] - effect[1]).max() < 1e-9
@@ -78,11 +78,12 @@ def test_on_an_aligned_plane_it_is_the_surface_based_deformation():
     values = bulge(source.points.reshape(-1, 3))
     lattice = ffd.enclose(face, (7, 7, 7))
     control = displacement_lattice(face.surface, (7, 7))
-    surface_based = control.field(ffds.solve(control, source.u, source.v, source.on_face, values))
+    surface_based = control.field(ffds.solve_lattice(control, source.u, source.v, source.on_face, values))
     uv = np.random.default_rng(2).uniform((0, 0), (75, 70), (500, 2))
-    in_space = lattice.displacement(ffd.solve_dense(lattice, source.points.reshape(-1, 3), values), face.surface(uv))
+    in_space = lattice.displacement(ffd.solve_volume_dense(lattice, source.points.reshape(-1, 3), values),
+                                    face.surface(uv))
     assert np.abs(in_space - surface_based(uv)).max() < 1e-10
-    told = ffd.on_surface(lattice, ffd.solve(lattice, source, values), face.surface, (7, 7))
+    told = ffd.on_surface(lattice, ffd.solve_volume(lattice, source, values), face.surface, (7, 7))
     assert told.control_points.shape == (7, 7, 3)
     assert np.abs(told(uv) - surface_based(uv)).max() < 1e-10
 

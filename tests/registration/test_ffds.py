@@ -6,9 +6,10 @@ import pytest
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.registration.control_lattice import displacement_lattice
-from ffds_workbench.registration.face import FaceGeometry
-from ffds_workbench.registration.ffds import basis, equidistant_grid, pseudo_inverse, register_ffds, solve
+from ffds_workbench.registration.face.control_lattice import displacement_lattice
+from ffds_workbench.registration.face.ffds import (equidistant_grid, lattice_basis, pseudo_inverse, register_ffds,
+                                                   solve_lattice)
+from ffds_workbench.registration.face_geometry import FaceGeometry
 from ffds_workbench.registration.trims import inside_trims
 
 RANDOM = np.random.default_rng(3)
@@ -21,8 +22,8 @@ def test_kronecker_form_equals_the_dense_pseudo_inverse(face, size):
     control = displacement_lattice(face.surface, size)
     u, v, on_face = equidistant_grid(face, 400)
     values = RANDOM.normal(size=(400, 3))
-    dense = pseudo_inverse(basis(control, u, v)) @ values
-    np.testing.assert_allclose(solve(control, u, v, on_face, values), dense, rtol=0, atol=1e-12)
+    dense = pseudo_inverse(lattice_basis(control, u, v)) @ values
+    np.testing.assert_allclose(solve_lattice(control, u, v, on_face, values), dense, rtol=0, atol=1e-12)
 
 
 def test_a_field_of_the_lattice_is_found_exactly():
@@ -32,7 +33,7 @@ def test_a_field_of_the_lattice_is_found_exactly():
     points = RANDOM.normal(size=(30, 3))
     u, v, on_face = equidistant_grid(face, 400)
     moved = control.field(points).on_grid(u, v).reshape(-1, 3)
-    np.testing.assert_allclose(solve(control, u, v, on_face, moved), points, atol=1e-11)
+    np.testing.assert_allclose(solve_lattice(control, u, v, on_face, moved), points, atol=1e-11)
 
 
 def test_the_sheet_without_noise():

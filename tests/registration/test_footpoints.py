@@ -5,11 +5,11 @@ import pytest
 
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face
-from ffds_workbench.registration.face import FaceGeometry
-from ffds_workbench.registration.face_points import face_points
+from ffds_workbench.registration.face.robust_fit.face_points import face_points
+from ffds_workbench.registration.face_geometry import FaceGeometry
 from ffds_workbench.registration.footpoints import surface_coordinates
 from ffds_workbench.registration.projection import project
-from ffds_workbench.registration.raster import make_raster
+from ffds_workbench.registration.uv_raster import make_raster
 
 RADIUS = 20.0
 

@@ -10,15 +10,15 @@ import Part
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
-from ffds_workbench.registration.joint.boundary import find_borders, find_near_edges
-from ffds_workbench.registration.joint.cholesky import FrontCholesky, FrontLayout
-from ffds_workbench.registration.joint.dissection import dissect
-from ffds_workbench.registration.joint.ends import exact_ends
-from ffds_workbench.registration.joint.lattice import build_lattices, cubic
+from ffds_workbench.registration.joint.data.borders import find_borders, find_near_edges
+from ffds_workbench.registration.joint.data.scan_statistics import scan_statistics
+from ffds_workbench.registration.joint.linear.cholesky import FrontCholesky, FrontLayout
+from ffds_workbench.registration.joint.linear.dissection import dissect
+from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
-from ffds_workbench.registration.joint.raster import make_places, normals
-from ffds_workbench.registration.joint.statistics import scan_statistics
-from ffds_workbench.registration.joint.stiffness import GAUSS_PLACES, make_stiffness
+from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
+from ffds_workbench.registration.joint.surfaces.close_seams import close_seams
+from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
 
 SPAN, TURNING = 8.0, np.deg2rad(25)
 
@@ -70,7 +70,7 @@ def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
     angle = 0.1
     rotation = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     points = fitted(lattices, cylinder.faces, lambda x: x @ rotation.T - x)
-    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
     jet = stiffness.places.displaced(lattices, points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     inside = stiffness.places.inside
@@ -83,7 +83,7 @@ def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
 
 
 def test_strain_derivative(cylinder, lattices):
-    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
     random = np.random.default_rng(3)
     points, change = 0.1 * random.normal(size=(2, lattices.count, 3))
     thickness = np.zeros(len(lattices.controls))
@@ -96,7 +96,7 @@ def test_strain_derivative(cylinder, lattices):
 
 
 def test_strain_load_is_that_of_the_rows(cylinder, lattices):
-    stiffness = make_stiffness(lattices, make_places(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
     random = np.random.default_rng(4)
     points = 0.1 * random.normal(size=(lattices.count, 3))
     thickness = np.full(len(lattices.controls), 3.0)
@@ -134,7 +134,7 @@ def test_fronts_solve_and_invert_like_a_dense_matrix():
 def test_poles_move_as_one_point():
     part = joint_part(read(Part.makeCone(0.0, 10.0, 20.0)))
     lattices = build_lattices(part.faces, SPAN, TURNING, {})
-    points = exact_ends(part, lattices, np.random.default_rng(0).normal(size=(lattices.count, 3)))
+    points = close_seams(part, lattices, np.random.default_rng(0).normal(size=(lattices.count, 3)))
     apex = next(edge for edge in part.edges if edge.degenerate)
     moved = lattices.spline(apex.faces[0], points)(apex.uv[0])
     assert np.ptp(moved, axis=0) == pytest.approx(0, abs=1e-12)

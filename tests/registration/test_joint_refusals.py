@@ -12,9 +12,9 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import JointSettings, register_joint
+from ffds_workbench.registration.joint.outcome import refuse_unsound
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.state import start
-from ffds_workbench.registration.joint.summary import refuse_bad
 
 SIZE, THICKNESS = (40.0, 30.0), 3.0
 
@@ -37,7 +37,7 @@ def solved(part, scan):
     state = start(problem)
     count = np.full(problem.distance.size, 5.0)
     state = replace(state, last_step=0.01, values=replace(state.values, count=count))
-    refuse_bad(problem, state)
+    refuse_unsound(problem, state)
     return problem, state
 
 
@@ -73,19 +73,19 @@ def test_points_that_lie_elsewhere(solved):
     few = np.zeros_like(state.values.count)
     few[0] = 49
     with pytest.raises(RefusedError, match="Only 49 of 6000 scan points lie near the part"):
-        refuse_bad(problem, replace(state, values=replace(state.values, count=few)))
+        refuse_unsound(problem, replace(state, values=replace(state.values, count=few)))
 
 
 def test_a_displacement_larger_than_the_part(solved):
     problem, state = solved
     with pytest.raises(RefusedError, match="80 mm, is larger than the part .50 mm.: align"):
-        refuse_bad(problem, replace(state, control_points=state.control_points + [80.0, 0.0, 0.0]))
+        refuse_unsound(problem, replace(state, control_points=state.control_points + [80.0, 0.0, 0.0]))
 
 
 def test_no_convergence(solved):
     problem, state = solved
     with pytest.raises(RefusedError, match="did not converge .the last step was 0.60 mm"):
-        refuse_bad(problem, replace(state, last_step=0.6))
+        refuse_unsound(problem, replace(state, last_step=0.6))
 
 
 def test_a_face_that_folds_over(part, solved):
@@ -99,4 +99,4 @@ def test_a_face_that_folds_over(part, solved):
     own[::2, :, axis] += 15.0
     own[1::2, :, axis] -= 15.0
     with pytest.raises(RefusedError, match=f"{part.faces[top].name} would fold over"):
-        refuse_bad(problem, replace(state, control_points=folded))
+        refuse_unsound(problem, replace(state, control_points=folded))

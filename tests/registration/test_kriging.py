@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ffds_workbench.registration.joint.kriging import Model, Observations, Pose, condition, likeliest
+from ffds_workbench.registration.joint.body_field.kriging import (FieldModel, Observations, Pose, condition,
+                                                                  most_likely_model)
 
 HALF, NOISE = 30.0, 0.01
 
@@ -35,7 +36,8 @@ def _observed(field, count: int = 900, seed: int = 1, body: np.ndarray | None = 
 def test_sliding_follows_from_what_is_seen_along_the_normals():
     seen = _observed(_bulge)
     place, normal = _cube(200, 7)
-    field, body = condition(likeliest(seen), seen, Pose.of(seen.place, seen.body), 1.0), np.zeros(200, dtype=np.intp)
+    field = condition(most_likely_model(seen), seen, Pose.of(seen.place, seen.body), 1.0)
+    body = np.zeros(200, dtype=np.intp)
     error, covariance = field.mean(place, body) - _bulge(place), field.covariance(place, body)
     slid = np.linalg.norm(np.where(normal != 0, 0.0, _bulge(place)), axis=1)
     # Along the normals alone nothing of it is seen: all would be lost. What is still lost, the covariance says below.
@@ -47,7 +49,7 @@ def test_sliding_follows_from_what_is_seen_along_the_normals():
 
 
 def test_the_likeliest_model_finds_the_noise():
-    model = likeliest(_observed(_bulge))
+    model = most_likely_model(_observed(_bulge))
     # Noises are tried in steps of ten in variance: half a step is a factor of √√10 = 1.8 in deviation.
     assert NOISE / 1.8 < np.sqrt(model.variance * model.noise) < 1.8 * NOISE
 
@@ -58,15 +60,15 @@ def test_bodies_that_move_by_themselves_are_told():
     def opposite(place: np.ndarray) -> np.ndarray:
         return np.where(place[:, :1] > 0, 1.0, -1.0) * (0.0, 0.5, 0.3)
 
-    assert likeliest(_observed(opposite, body=body)).apart
-    assert not likeliest(_observed(_bulge, body=body)).apart
+    assert most_likely_model(_observed(opposite, body=body)).apart
+    assert not most_likely_model(_observed(_bulge, body=body)).apart
 
 
 def test_a_known_variance_counts():
     seen = Observations(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), np.zeros(1, dtype=np.intp), np.array([1.0]),
                         np.zeros(1), np.array([0.25]))
     far = Pose.of(np.full((2, 3), 1e3), np.zeros(2, dtype=np.intp))
-    field = condition(Model(smooth=True, apart=False, length=10.0, variance=0.75, noise=0.0), seen, far, 1.0)
+    field = condition(FieldModel(smooth=True, apart=False, length=10.0, variance=0.75, noise=0.0), seen, far, 1.0)
     where = np.zeros((1, 3)), np.zeros(1, dtype=np.intp)
     # One observation of one number: mean = 1 · 0.75 / (0.75 + 0.25), variance = 1 / (1/0.75 + 1/0.25).
     assert field.mean(*where)[0] == pytest.approx([0.0, 0.0, 0.75])
@@ -80,7 +82,7 @@ def test_turns_that_nothing_shows_stay_with_the_pose():
     none = np.zeros(300, dtype=np.intp)
     seen = Observations(HALF * normal, normal, none, NOISE * np.random.default_rng(2).normal(size=300), np.ones(300),
                         np.zeros(300))
-    model = Model(smooth=True, apart=False, length=3 * HALF, variance=1.0, noise=NOISE**2)
+    model = FieldModel(smooth=True, apart=False, length=3 * HALF, variance=1.0, noise=NOISE**2)
     pose = Pose.of(seen.place, none)
     held, free = (condition(model, seen, pose, variance) for variance in (1e-4, 1e4))
     spread = [np.sqrt(np.trace(field.covariance(seen.place, none), axis1=1, axis2=2)).mean() for field in (held, free)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from ffds_workbench.registration.neighbours import nearest_neighbours
+from ffds_workbench.registration.face.neighbours import nearest_neighbours
 
 RANDOM = np.random.default_rng(7)
 

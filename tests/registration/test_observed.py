@@ -5,7 +5,7 @@ import Part
 import pytest
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.registration.observed import observed_faces
+from ffds_workbench.registration.face.observed_faces import observed_faces
 
 LENGTH, WIDTH = 60.0, 40.0
 
@@ -55,11 +55,11 @@ def test_visible_faces_of_a_bracket(shared_data):
     """Every face that the case calls visible and that is no sliver is found, and no hidden one."""
     import json
 
-    from ffds_workbench.brep import files
+    from ffds_workbench.brep.model_files import model_file
     from ffds_workbench.scan import files as scan_files
 
     folder = shared_data / "cases" / "b-springback"
-    part = workpiece.read(files.read(folder / "nominal.step").shape)
+    part = workpiece.read(model_file.read(folder / "nominal.step").shape)
     case = json.loads((folder / "case.json").read_text())
     faces = [part.geometry(k) for k in range(len(part.faces))]
     found = observed_faces(faces, scan_files.read(folder / "scan.ply").points)

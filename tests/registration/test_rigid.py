@@ -18,15 +18,15 @@ from scipy.spatial.transform import Rotation
 
 from ffds_workbench import api
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.simulation import target_of as sensor_target_of
+from ffds_workbench.brep.simulated_scan import scene_of as sensor_target_of
+from ffds_workbench.registration.motions import angle, apply, best_fit, describe_difference, motion, shift
 from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
-from ffds_workbench.registration.rigid.deformation import Deformation, space_of
-from ffds_workbench.registration.rigid.deformed import cells_of
-from ffds_workbench.registration.rigid.ends import Ends, beside, find_ends
-from ffds_workbench.registration.rigid.motions import angle, apply, best_fit, difference, motion, shift
-from ffds_workbench.registration.rigid.sketch import find_table, sketch_of
+from ffds_workbench.registration.rigid.deformation.deformed_pose import surface_cells
+from ffds_workbench.registration.rigid.deformation.displacement_field import DisplacementField, displacement_basis
+from ffds_workbench.registration.rigid.refine.scan_rims import ScanEnds, find_scan_ends, points_near_rims
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
-from ffds_workbench.registration.rigid.units import plausible_scales
+from ffds_workbench.registration.rigid.unit_guess import plausible_scales
+from ffds_workbench.registration.scan_sketch import find_table, sketch_of
 from ffds_workbench.scan.sensor import SensorSettings, View, simulate
 
 FAR, TURNED = 1.0, np.deg2rad(0.5)
@@ -128,11 +128,11 @@ def test_normals_of_a_thin_sheet_keep_their_side_around_its_rim():
         assert flat.sum() > 500 and abs(np.mean(side > 0) - 0.5) > 0.47     # noise turns single ones
 
 
-def ends_of(points: np.ndarray, reach: float, noise: float) -> Ends:
+def ends_of(points: np.ndarray, reach: float, noise: float) -> ScanEnds:
     """Of a scan of a plate of 60 × 40 × 3 mm."""
     rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
-    row, entry = beside(rims, points, reach)
-    return find_ends(rims, points[row], entry, reach, noise, 0.5)
+    row, entry = points_near_rims(rims, points, reach)
+    return find_scan_ends(rims, points[row], entry, reach, noise, 0.5)
 
 
 @pytest.mark.parametrize(("noise", "shift_of_scan"), [(0.0, 0.15), (0.1, 0.15), (0.1, -0.2)])
@@ -151,7 +151,7 @@ def test_ends_of_a_scan_are_found_however_noise_blurs_them(noise, shift_of_scan)
 
 def test_cells_stand_for_the_surface_evenly():
     """A bent part's pose hangs on moments of its area: to 0.5 % of a box's, where 600 points at random give 4 %."""
-    middles, area = cells_of(target_of(geometry(Part.makeBox(60, 40, 3))))
+    middles, area = surface_cells(target_of(geometry(Part.makeBox(60, 40, 3))))
     a, b, c = 60.0, 40.0, 3.0
     assert area.sum() == pytest.approx(2 * (a * b + b * c + a * c), rel=1e-3)
     np.testing.assert_allclose(np.average(middles, axis=0, weights=area), (a / 2, b / 2, c / 2), atol=0.1)
@@ -195,18 +195,18 @@ def test_points_of_a_sheet_lie_beside_rims_of_the_side_that_is_seen():
     rims = target_of(geometry(Part.makeBox(60, 40, 3))).rims
     top = np.column_stack([np.random.default_rng(0).uniform(0, (60, 40), (20_000, 2)), np.full(20_000, 1.0)])
     hidden = rims.faces[:, 2] < -0.5
-    assert hidden.any() and not (rims.normals[beside(rims, top, 1.0)[1], 2] > 0.5).any()
-    assert (rims.normals[beside(rims, top, 1.0, hidden)[1], 2] > 0.5).any()
+    assert hidden.any() and not (rims.normals[points_near_rims(rims, top, 1.0)[1], 2] > 0.5).any()
+    assert (rims.normals[points_near_rims(rims, top, 1.0, hidden)[1], 2] > 0.5).any()
 
 
-def linear(space, gradient: np.ndarray, shift_of_all: np.ndarray) -> Deformation:
+def linear(space, gradient: np.ndarray, shift_of_all: np.ndarray) -> DisplacementField:
     """d(X) = A (X − middle) + b."""
-    return Deformation(space, np.vstack([shift_of_all, 0.5 * space.size * gradient.T]))
+    return DisplacementField(space, np.vstack([shift_of_all, 0.5 * space.size * gradient.T]))
 
 
 def test_strain_of_a_deformation_is_greens():
     """½ (A + Aᵀ + AᵀA) for d = A X + b, so none for a turn; derivatives against differences of it."""
-    space = space_of(target_of(geometry(Part.makeBox(60, 40, 3))))
+    space = displacement_basis(target_of(geometry(Part.makeBox(60, 40, 3))))
     rng = np.random.default_rng(0)
     a = 0.2 * rng.normal(size=(3, 3))
     turn = Rotation.from_rotvec((0.3, -0.5, 0.2)).as_matrix() - np.eye(3)
@@ -219,16 +219,16 @@ def test_strain_of_a_deformation_is_greens():
         np.testing.assert_allclose(found, expected, atol=1e-12)
     coefficients = 0.1 * rng.normal(size=(len(space.degree), 3))
     step = 1e-6 * rng.normal(size=coefficients.shape)
-    rows = Deformation(space, coefficients).strains(components)[1]
-    before, after = (Deformation(space, coefficients + k * step).strains(components)[0] for k in (-1.0, 1.0))
+    rows = DisplacementField(space, coefficients).strains(components)[1]
+    before, after = (DisplacementField(space, coefficients + k * step).strains(components)[0] for k in (-1.0, 1.0))
     np.testing.assert_allclose(2.0 * step.ravel() @ rows, after - before, atol=1e-12)
 
 
 def test_a_deformation_moves_with_the_part():
     """M (X + d(X)) = X + d'(X) inside the box that the polynomials are evaluated in, to single precision of 30 mm."""
-    space = space_of(target_of(geometry(Part.makeBox(60, 40, 3))))
+    space = displacement_basis(target_of(geometry(Part.makeBox(60, 40, 3))))
     rng = np.random.default_rng(0)
-    deformation = Deformation(space, rng.normal(size=(len(space.degree), 3)))
+    deformation = DisplacementField(space, rng.normal(size=(len(space.degree), 3)))
     move = motion(Rotation.from_rotvec((0.2, 0.1, -0.3)).as_matrix(), np.array([3.0, -2.0, 1.0]))
     places = rng.uniform((0, 0, 0), (60, 40, 3), (200, 3))
     np.testing.assert_allclose(places + deformation.moved(move)(places), apply(move, places + deformation(places)),
@@ -237,9 +237,9 @@ def test_a_deformation_moves_with_the_part():
 
 def test_poses_are_told_apart_in_words():
     half = motion(Rotation.from_rotvec([0, 0, -np.pi]).as_matrix(), np.array([1.0, 2.0, 3.0]))
-    assert difference(np.eye(4), half, np.zeros(3)) == "turned by 180° about z"
+    assert describe_difference(np.eye(4), half, np.zeros(3)) == "turned by 180° about z"
     up = motion(np.eye(3), np.array([0.0, 0.0, -3.0]))
-    assert difference(half, up @ half, np.zeros(3)) == "moved by 3 mm along −z"
+    assert describe_difference(half, up @ half, np.zeros(3)) == "moved by 3 mm along −z"
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -287,7 +287,7 @@ def test_table_with_most_of_the_points(bracket):
 def test_no_table_where_there_is_none(bracket):
     target, scan = bracket
     rng = np.random.default_rng(0)
-    assert find_table(sketch_of(scan, rng), target.shadow, rng) is None
+    assert find_table(sketch_of(scan, rng), target.largest_projection, rng) is None
 
 
 @pytest.mark.parametrize("mode", ["fine", "global"])

@@ -8,8 +8,8 @@ import pytest
 from ffds_workbench.benchmark import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError
+from ffds_workbench.registration.face.robust import register_robust
 from ffds_workbench.registration.projection import project
-from ffds_workbench.registration.robust import register_robust
 
 FACE = sheet.nominal()
 
@@ -146,13 +146,14 @@ def test_refusals_say_what_to_do(scan, lattice, text):
 @pytest.mark.parametrize("name", ["b-springback", "d-bumps", "e-twist", "f-bend"])
 def test_cases(shared_data, name):
     """Every curved or plane main face by itself; 0.02 mm is three times what white noise leaves on the smallest."""
-    from ffds_workbench.brep import files, workpiece
+    from ffds_workbench.brep import workpiece
+    from ffds_workbench.brep.model_files import model_file
     from ffds_workbench.scan import files as scan_files
 
     folder = shared_data / "cases" / name
     case, truth = json.loads((folder / "case.json").read_text()), np.load(folder / "truth.npz")
     index = int(case["main_face"].removeprefix("Face")) - 1
-    face = workpiece.read(files.read(folder / "nominal.step").shape).geometry(index)
+    face = workpiece.read(model_file.read(folder / "nominal.step").shape).geometry(index)
     points = truth["warped"][(truth["face"] == index) & truth["visible"]]
     result = register_robust(face, scan_files.read(folder / "scan.ply").points)
     assert np.abs(project(face.surface, points, result.displacement).height).mean() < 0.02
@@ -160,12 +161,13 @@ def test_cases(shared_data, name):
 
 def test_real_weld_part(shared_data):
     """Pipe of a robot's laser scan, noise 1.6 mm: held-out points deviate no more than 1.1 times the fitted ones."""
-    from ffds_workbench.brep import files, workpiece
-    from ffds_workbench.registration.observed import observed_faces
+    from ffds_workbench.brep import workpiece
+    from ffds_workbench.brep.model_files import model_file
+    from ffds_workbench.registration.face.observed_faces import observed_faces
     from ffds_workbench.scan import files as scan_files
 
     folder = shared_data / "weld_pipe_on_angle"
-    part = workpiece.read(files.read(folder / "nominal.step").shape)
+    part = workpiece.read(model_file.read(folder / "nominal.step").shape)
     faces = [part.geometry(k) for k in range(len(part.faces))]
     scan = scan_files.read(folder / "scan_60deg_aligned_mm.ply").points
     pipe = next(k for k in observed_faces(faces, scan) if faces[k].kind == "Cylinder")

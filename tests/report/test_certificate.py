@@ -9,14 +9,7 @@ import Part
 import pytest
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.report.certificate import (
-    Certificate,
-    certify,
-    condition,
-    enforce,
-    max_edge_gap,
-    structure,
-)
+from ffds_workbench.report.certificate import Certificate, certify, condition, enforce, max_edge_gap, structure
 
 SHIFT = 0.0125
 

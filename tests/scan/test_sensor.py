@@ -9,17 +9,17 @@ from FreeCAD import Vector
 
 from ffds_workbench.brep import workpiece
 from ffds_workbench.errors import InputError, RefusedError
-from ffds_workbench.scan.sensor import SensorSettings, Target, View, make_truth, simulate
+from ffds_workbench.scan.sensor import Scene, SensorSettings, View, make_truth, simulate
 from ffds_workbench.scan.sensor.errors import correlated
 from ffds_workbench.scan.sensor.truth import foot
 
 UP = View((0.0, 0.0, 1.0))
 
 
-def target_of(shape: Part.Shape, displace=None) -> Target:
+def target_of(shape: Part.Shape, displace=None) -> Scene:
     piece = workpiece.read(shape)
     faces = [piece.geometry(i) for i in range(len(piece.faces))]
-    return Target(faces, dict.fromkeys(range(len(faces)), displace) if displace else None)
+    return Scene(faces, dict.fromkeys(range(len(faces)), displace) if displace else None)
 
 
 @pytest.fixture(scope="module")

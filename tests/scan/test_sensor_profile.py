@@ -18,7 +18,7 @@ from ffds_workbench.cli import sensor as command
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.registration.joint import SensorProfile
 from ffds_workbench.scan import sensor_profile
-from ffds_workbench.scan.sensor import SensorSettings, Target, View, simulate
+from ffds_workbench.scan.sensor import Scene, SensorSettings, View, simulate
 from ffds_workbench.scan.sensor_noise import measure
 
 WIDE, HIGH = 80.0, 60.0
@@ -27,7 +27,7 @@ UP = View((0.0, 0.0, 1.0))
 
 def scan_of(shape: Part.Shape, seed: int, **settings) -> np.ndarray:
     piece = workpiece.read(shape)
-    target = Target([piece.geometry(i) for i in range(len(piece.faces))])
+    target = Scene([piece.geometry(i) for i in range(len(piece.faces))])
     return simulate(target, SensorSettings(spacing=0.4, views=(UP,), seed=seed, **settings)).points
 
 

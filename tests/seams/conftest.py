@@ -11,7 +11,7 @@ import Part
 import pytest
 
 from ffds_workbench.brep import workpiece
-from ffds_workbench.brep.displacement import FaceDisplacement
+from ffds_workbench.brep.face_displacement import FaceDisplacement
 from ffds_workbench.brep.rebuild import rebuild
 
 Warp = Callable[[np.ndarray], np.ndarray]

@@ -13,8 +13,9 @@ import pytest
 
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.seams.carry import carry
-from ffds_workbench.seams.plan import plan_seams, write_seams
+from ffds_workbench.seams.plan import plan_seams
 from ffds_workbench.seams.programs.conventions import from_kuka_angles
+from ffds_workbench.seams.writing import write_seams
 
 POSITION, DIRECTION = 1e-4, 0.02
 """mm and degrees, as for the seams themselves: poses on a seam are carried by the frame of its edge."""

@@ -21,6 +21,6 @@ class AlignByPoints(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from ..point_pairs_panel import open_panel
+        from ..panels.point_pairs_panel import open_panel
 
         open_panel(*part_and_scan())

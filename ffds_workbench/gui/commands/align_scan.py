@@ -27,7 +27,7 @@ class AlignScan(Command):
     def run(self) -> None:
         """Find the pose in the background, then move the scan in one undo step."""
         from ...objects import alignment
-        from ...registration.rigid.alignment import AMBIGUOUS
+        from ...registration.rigid import AMBIGUOUS
 
         part, scan = part_and_scan()
         found = in_background(tr("Aligning the scan"), alignment.prepare(part, scan, "global"))

@@ -31,7 +31,7 @@ class DeformFaces(Command):
     def run(self) -> None:
         """Open the panel; an as-built part is changed, any other gets one beside it."""
         from ...objects.as_built import is_as_built
-        from ..deformation_panel import open_panel
+        from ..panels.deformation_panel import open_panel
 
         selected = chosen()
         item = selected.parts[0] if selected.parts and is_as_built(selected.parts[0]) else None

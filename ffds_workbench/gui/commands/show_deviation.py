@@ -21,6 +21,6 @@ class ShowDeviation(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from ..deviation_panel import open_panel
+        from ..panels.deviation_panel import open_panel
 
         open_panel(*part_and_scan())

@@ -6,11 +6,11 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from ..panel import choice, length, named, spin
 from ..qt import QtWidgets, execute
 from ..running import call, name_of
 from ..selection import chosen
 from ..translating import tr
+from ..widgets import choice, length, named, spin
 from .command import Command, one_part
 
 

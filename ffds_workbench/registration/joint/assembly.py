@@ -7,14 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import blas
 
-from ..splines import Array
-from .boundary import Borders
-from .lattice import Index, cubic
-from .problem import Across, Problem
-from .raster import Jet, normals
-from .settings import Trust
-from .stiffness import COMPONENTS
-from .values import CellValues
+from ..arrays import Array, Index
+from .data import Borders, CellHeights
+from .priors import COMPONENTS
+from .problem import Problem, ThicknessRows
+from .settings import PriorTrust
+from .surfaces import Jet, cubic, normals
 
 
 @dataclass(frozen=True)
@@ -25,7 +23,7 @@ class NormalEquations:
     right: Array
 
 
-def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: CellValues) -> None:
+def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: CellHeights) -> None:
     """Add the rows of the scan, point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the
     normal)."""
     shape = problem.cells.inside.shape
@@ -83,8 +81,8 @@ def add_borders(equations: NormalEquations, problem: Problem, control_points: Ar
     np.add(equations.right, gather(problem, pull, samples.span), out=equations.right)
 
 
-def shape_equations(problem: Problem, control_points: Array, bending: float, trust: Trust,
-                    strained: Array, across: Across) -> NormalEquations:
+def shape_equations(problem: Problem, control_points: Array, bending: float, trust: PriorTrust,
+                    strained: Array, across: ThicknessRows) -> NormalEquations:
     """All priors at the current shape with the trust they have; ``bending`` multiplies the weight of bending.
 
     ``strained`` is `strain_blocks` and ``across`` tells along which normals thickness is measured; both may be those of
@@ -100,7 +98,7 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     skin, wall = problem.isometry_weights(trust)
     for rows, isometry in zip(strained, (skin, wall), strict=True):
         blocks = blas.daxpy(rows.ravel(), blocks, a=isometry)
-    bent = evenly_bent(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
+    bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
     right = (weight * gather(problem, load)
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear, across.normal)
@@ -131,7 +129,7 @@ def strain_blocks(problem: Problem, control_points: Array) -> Array:
     return result
 
 
-def evenly_bent(problem: Problem, control_points: Array, normal: Array) -> Array:
+def mean_curvature_change(problem: Problem, control_points: Array, normal: Array) -> Array:
     """Mean change of curvature of the face that a span belongs to: (spans, 3). A sheet rolled as a whole is smooth."""
     face, area = problem.lattices.face_of_span, problem.stiffness.area
     change = np.einsum("sk,skp->sp", area, problem.stiffness.curvature_change(problem.lattices, control_points, normal))

@@ -6,17 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..splines import Array, SplineSurface
+from ..arrays import Array
+from ..splines import SplineSurface
 from .part import JointPart
+from .prior_trust import update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
-from .sides import facing
-from .solve import iterate
+from .skins import candidate_outward_normals
+from .solve import gauss_newton_step
 from .state import State, start
-from .trust import judge
 
-_SPAN = 30.0
-_POINTS = 6000
+_LEAST_SPAN = 30.0
+_SAMPLE_SIZE = 6000
 
 
 class LiveJoint:
@@ -33,14 +34,14 @@ class LiveJoint:
 
     def __init__(self, part: JointPart, scan: Array, settings: JointSettings,
                  scan_normals: Array | None = None) -> None:
-        some = np.random.default_rng(settings.seed).permutation(len(scan))[:_POINTS]
+        some = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
         self._problem = make_problem(part, scan[some], _coarse(settings), {},
                                      None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
-        self._state = replace(state, facing=facing(self._problem, state.reach)[0][0])
+        self._state = replace(state, facing=candidate_outward_normals(self._problem, state.reach)[0][0])
         for stage in stages(settings.schedule, state.reach):
             if not stage.all_points:
-                self._state = judge(self._problem, self._state, stage)
+                self._state = update_prior_trust(self._problem, self._state, stage)
                 self._state = _steps(self._problem, stage, self._state, stage.iterations)
         self._isometry = settings.isometry
 
@@ -50,7 +51,7 @@ class LiveJoint:
         stage = replace([stage for stage in settings.schedule if not stage.all_points][-1],
                         gate=settings.schedule[-1].gate)
         if settings.isometry != self._isometry:
-            self._state = judge(problem, self._state, stage)
+            self._state = update_prior_trust(problem, self._state, stage)
             self._isometry = settings.isometry
         self._state = _steps(problem, stage, self._state, 1)
         lattices = problem.lattices
@@ -58,14 +59,14 @@ class LiveJoint:
 
 
 def _coarse(settings: JointSettings) -> JointSettings:
-    return replace(settings, span=max(_SPAN, settings.span), refine=False)
+    return replace(settings, span=max(_LEAST_SPAN, settings.span), refine=False)
 
 
 def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:
     """Gauss-Newton steps, without the pull of visible borders: it changes little here and takes half of the time."""
-    state = replace(state, kept=replace(state.kept, nearest=None))
+    state = replace(state, cache=replace(state.cache, nearest=None))
     for _ in range(most):
-        state = iterate(problem, replace(stage, soft=False), state)
+        state = gauss_newton_step(problem, replace(stage, soft=False), state)
         if state.last_step < stage.enough:
             break
     return state

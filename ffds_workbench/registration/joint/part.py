@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..face import FaceGeometry
-from ..splines import Array
+from ..arrays import Array
+from ..face_geometry import FaceGeometry
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class SharedEdge:
     faces : indices of its faces into ``JointPart.faces``; twice the same face where the edge is a seam, one face where
         the edge is free
     uv : one (m, 2) array of parameters per entry of ``faces``
+    left : per entry of ``faces``, whether the face lies left of the edge, seen from outside the material
     points : (m, 3) in mm, the edge itself, at the same places
     degenerate : the edge is a single point (the apex of a cone, the pole of a sphere)
     """
@@ -28,6 +29,7 @@ class SharedEdge:
     name: str
     faces: tuple[int, ...]
     uv: tuple[Array, ...]
+    left: tuple[bool, ...]
     points: Array
     degenerate: bool = False
 

@@ -11,21 +11,16 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ..splines import Array
-from .boundary import EdgeSides, edge_sides
-from .contact import contact_rows
-from .correspondence import trim_margin
-from .couplings import Couplings, make_couplings
-from .lattice import Index, Lattices, build_lattices
+from ..arrays import Array, Index
+from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
+from .linear import Pattern
 from .part import JointPart
-from .raster import Places, distance_to_trims, make_places, normals
-from .settings import JointSettings, Trust
-from .sheet import find_pairs
-from .statistics import ScanStatistics, scan_statistics
-from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
-from .system import Pattern
+from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
+                     make_stiffness)
+from .settings import JointSettings, PriorTrust
+from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals
 
-_SAMPLE = 15000
+_SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
 _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
@@ -33,12 +28,12 @@ _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
 _SAME_NORMAL = 0.02
 """Change of a normal up to which it does for the thickness, of which it changes one in five thousand."""
-_WALL = 0.1
+_WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
 
 @dataclass(frozen=True)
-class Across:
+class ThicknessRows:
     """The thickness of sheets along normals (pairs, 3): ``blocks`` (size, 3, 3) are its rows on the pattern."""
 
     normal: Array
@@ -69,7 +64,7 @@ class Problem:
     sample: Array
     statistics: ScanStatistics
     lattices: Lattices
-    cells: Places
+    cells: SpanGrid
     distance: Array
     area: Array
     stiffness: Stiffness
@@ -80,12 +75,12 @@ class Problem:
     margin: Array
     sample_normals: Array | None = None
 
-    def across(self, control_points: Array, known: Across | None = None) -> Across:
+    def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
         """Rows of the thickness along the normals that the sheets have with these control points, or hardly differ."""
         normal = self.couplings.sheet_normals(control_points)
         if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
             return known
-        return Across(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
+        return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
     @cached_property
     def size(self) -> float:
@@ -93,7 +88,7 @@ class Problem:
         return float(np.linalg.norm(np.ptp(self.cells.nominal.position[self.cells.inside], axis=0)))
 
     @cached_property
-    def apart(self) -> Array:
+    def distance_to_nominal(self) -> Array:
         """How far the points of the sample lie from the nominal part, in mm; infinite beyond its size: (n,)."""
         tree = cKDTree(self.cells.nominal.position[self.cells.inside])
         return np.asarray(tree.query(self.sample, distance_upper_bound=self.size, workers=-1)[0])
@@ -113,10 +108,10 @@ class Problem:
         """Whether a span belongs to the skin of a sheet."""
         return self.sheet_of_span > 0
 
-    def isometry_weights(self, trust: Trust) -> tuple[float, float]:
+    def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
         weight = self.settings.isometry_weight * trust.isometry
-        return weight, min(_WALL * weight, self.settings.isometry_weight_walls)
+        return weight, min(_WALL_ISOMETRY * weight, self.settings.isometry_weight_walls)
 
 
 def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int],
@@ -131,14 +126,14 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
         raise RefusedError("Every face is frozen: leave at least one face free to move.")
     if len(scan) < _FEWEST_POINTS:
         raise RefusedError(f"The scan has only {len(scan)} points: at least {_FEWEST_POINTS} are needed.")
-    pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE]
+    pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
     sample = scan[pick]
     statistics = scan_statistics(scan)
     span = max(settings.span, np.sqrt(_POINTS_PER_SPAN / statistics.density))
     lattices = build_lattices(part.faces, span, settings.turning, finer)
     per_span = int(np.clip(span / np.sqrt(_POINTS_PER_CELL / statistics.density), *_CELLS_PER_SPAN))
-    cells = make_places(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    stiffness = make_stiffness(lattices, make_places(part.faces, lattices, GAUSS_PLACES))
+    cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
+    stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / statistics.noise**2)
@@ -151,7 +146,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                          pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
-                   edge_sides(couplings.edges, lattices, cells),
+                   edge_sides(couplings.edges),
                    trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
                    None if scan_normals is None else scan_normals[pick])
 
@@ -170,7 +165,7 @@ def _bending(pattern: Pattern, stiffness: Stiffness) -> tuple[Array, Array]:
     return across, SLIDING * (_same_for_all(pattern.from_spans(every)) - across)
 
 
-def _positions(lattices: Lattices, cells: Places) -> Array:
+def _positions(lattices: Lattices, cells: SpanGrid) -> Array:
     """Roughly where every control point lies: the mean of the spans it acts on, (controls, 3) in mm."""
     middle = np.repeat(cells.nominal.position.mean(axis=1), 16, axis=0)
     controls = lattices.controls.ravel()

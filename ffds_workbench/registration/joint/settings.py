@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from .sensor import SensorProfile
+from .noise_model import SensorProfile
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Stage:
 
 
 @dataclass(frozen=True)
-class Trust:
+class PriorTrust:
     """Factors on the weights of the priors: of isometry, of the thickness of sheets and their resistance to shear
     through the thickness, of the angles of edges, and of what bends within a surface. Bending across it always has its
     weight: it only keeps surfaces smooth."""

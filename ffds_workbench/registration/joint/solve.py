@@ -13,38 +13,36 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import RefusedError
-from ..splines import Array
+from ..arrays import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
-from .body import add_body, body_rows, body_tells
-from .boundary import find_borders, find_near_edges
-from .correspondence import Correspondence, correspond, make_frames
-from .ends import exact_ends
-from .misfit import misfit
+from .body_field import add_body_rows, body_informs, body_rows
+from .data import (Correspondence, correspond, find_borders, find_near_edges, make_frames, median_heights,
+                   tukey_mean_heights)
+from .joint_result import JointRegistration
+from .lattice_refinement import faces_to_refine, transfer
+from .linear import solve_normal_equations
+from .outcome import refuse_unsound, summarise
 from .part import JointPart
+from .prior_trust import is_isometric, update_prior_trust
 from .problem import Problem, make_problem
-from .raster import Jet
-from .refinement import finer_faces, transfer
-from .result import JointRegistration
 from .settings import JointSettings, Stage, stages
-from .sides import facing, shown
-from .state import Kept, State, start
-from .summary import refuse_bad, summarise
-from .system import solve
-from .trust import is_isometric, judge
-from .values import medians, tukey_means
+from .skins import candidate_outward_normals, choose_skin
+from .state import State, StepCache, start
+from .surfaces import Jet, close_seams
+from .uncertainty import misfit
 
 Progress = Callable[[str, float], None]
-_FIRM = 0.9
+_TRUST_SETTLES = 0.9
 """Where the shape lies off all of the scan, a stage goes on while the trust in isometry falls by more than this factor:
 shapes follow it slowly."""
-_SETTLED = 0.05
+_NO_MORE_STIFF_STAGES = 0.05
 """A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
-_HARDLY_MOVES = 0.1
+_MATCHES_LAST = 0.1
 """Movement in mm after which points keep their cells: a small share of a cell."""
-_HARDLY_TURNS = 0.5
+_STRAIN_LASTS = 0.5
 """Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
 so far that the steps would go astray."""
-_SOFTER = 0.03
+_FACTOR_LASTS = 0.03
 """A matrix with this share of the bending is too far from one with all of it to be solved with that one's factor."""
 
 
@@ -73,14 +71,14 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = start(problem)
     steps = stages(settings.schedule, state.reach)
     report("joint solve", 0.0)
-    sides, told = facing(problem, state.reach)
-    state = shown(problem, [_stiff(problem, steps, replace(state, facing=outward), len(sides) > 1)
-                            for outward in sides], told)
+    sides, told = candidate_outward_normals(problem, state.reach)
+    state = choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, facing=outward), len(sides) > 1)
+                                  for outward in sides], told)
     for number, stage in enumerate(steps):
         if stage.soft:
             report("joint solve", number / len(steps))
-            state = _soft(problem, stage, state)
-    finer = finer_faces(problem, state) if settings.refine else {}
+            state = _run_soft_stage(problem, stage, state)
+    finer = faces_to_refine(problem, state) if settings.refine else {}
     if finer:
         report("finer lattice", 1.0)
         coarse, problem = problem, make_problem(part, scan, settings, finer)
@@ -88,21 +86,21 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
         for stage in steps:
             if stage.soft:
                 state = run_stage(problem, stage, state)
-    state = replace(state, control_points=exact_ends(part, problem.lattices, state.control_points))
-    refuse_bad(problem, state)
+    state = replace(state, control_points=close_seams(part, problem.lattices, state.control_points))
+    refuse_unsound(problem, state)
     return summarise(problem, state)
 
 
-def _stiff(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
+def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
     """The stiff stages, of which some can be left out; fits that are ``compared`` all end with the last one."""
     stiff = [stage for stage in steps if not stage.soft]
     for stage in stiff:
-        if state.last_step > _SETTLED or (compared and stage is stiff[-1]):
+        if state.last_step > _NO_MORE_STIFF_STAGES or (compared and stage is stiff[-1]):
             state = run_stage(problem, stage, state)
     return state
 
 
-def _soft(problem: Problem, stage: Stage, state: State) -> State:
+def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
     """A soft stage; a sheet that complies without any stretch has not stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state)
@@ -113,72 +111,74 @@ def _soft(problem: Problem, stage: Stage, state: State) -> State:
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
     """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
-    if stage.body and not body_tells(problem, state.trust):
+    if stage.body and not body_informs(problem, state.trust):
         return state
-    kept = state.kept
+    cache = state.cache
     if stage.all_points and not stage.body:
-        kept = replace(kept, nearest=None, factor=None)
+        cache = replace(cache, nearest=None, factor=None)
     if stage.soft:
-        kept = replace(kept, across=problem.across(state.control_points, kept.across), body=None)
-    state = replace(state, kept=kept)
+        cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
+                        body=None)
+    state = replace(state, cache=cache)
     for _ in range(stage.iterations):
-        before, state = state, iterate(problem, stage, judge(problem, state, stage))
-        loosening = stage.all_points and state.trust.isometry < _FIRM * before.trust.isometry
-        if state.last_step < stage.enough and not (loosening and _is_off(problem, state)):
+        before, state = state, gauss_newton_step(problem, stage, update_prior_trust(problem, state, stage))
+        loosening = stage.all_points and state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
+        if state.last_step < stage.enough and not (loosening and _misfits_scan(problem, state)):
             break
     return state
 
 
-def _is_off(problem: Problem, state: State) -> bool:
+def _misfits_scan(problem: Problem, state: State) -> bool:
     """Whether the shape lies somewhere farther off the scan than its noise."""
     return bool(misfit(problem, state.values).max() > problem.statistics.noise**2)
 
 
-def iterate(problem: Problem, stage: Stage, state: State) -> State:
+def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
-    found = _match(problem, stage, state, jet)
-    cell_values = tukey_means if stage.all_points else medians
+    found = _match_scan(problem, stage, state, jet)
+    cell_values = tukey_mean_heights if stage.all_points else median_heights
     values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
-    kept = _renew(problem, stage, replace(state, values=values), jet)
-    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, kept.strained, kept.across)
+    cache = _renewed_cache(problem, stage, replace(state, values=values), jet)
+    equations = shape_equations(problem, state.control_points, stage.bending, state.trust, cache.strain_matrices,
+                                cache.thickness_rows)
     add_data(equations, problem, jet, values)
-    if kept.borders is not None:
-        add_borders(equations, problem, state.control_points, kept.borders)
-    if kept.body is not None:
-        add_body(equations, problem, state.control_points, kept.body, state.trust)
-    near = kept.factor if stage.bending > _SOFTER * kept.stiff else None
-    step, factor = solve(problem.pattern, equations.blocks, equations.right, near)
+    if cache.borders is not None:
+        add_borders(equations, problem, state.control_points, cache.borders)
+    if cache.body is not None:
+        add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
+    near = cache.factor if stage.bending > _FACTOR_LASTS * cache.factor_bending else None
+    step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, near)
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
-    kept = replace(kept, nearest=found.nearest, turned=kept.turned + last_step, factor=factor,
-                   stiff=stage.bending if factor is not near else kept.stiff)
+    cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
+                    factor_bending=stage.bending if factor is not near else cache.factor_bending)
     return replace(state, control_points=state.control_points + step, values=values, noise=values.noise,
-                   last_step=last_step, iterations=state.iterations + 1, kept=kept)
+                   last_step=last_step, iterations=state.iterations + 1, cache=cache)
 
 
-def _match(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
+def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
     """The scan points of the stage with their cells on the current shape."""
     points = problem.scan if stage.all_points else problem.sample
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     gate = max(stage.gate, 4 * problem.statistics.noise)
-    found = correspond(points, frames, gate, state.kept.nearest if state.last_step < _HARDLY_MOVES else None,
+    found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
                        None if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     return found
 
 
-def _renew(problem: Problem, stage: Stage, state: State, jet: Jet) -> Kept:
-    """What is kept, renewed where the shape has moved too far since."""
-    kept, control_points = state.kept, state.control_points
-    if kept.turned > _HARDLY_TURNS:
-        kept = replace(kept, strained=strain_blocks(problem, control_points), turned=0.0)
+def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> StepCache:
+    """The cache, renewed where the shape has moved too far since."""
+    cache, control_points = state.cache, state.control_points
+    if cache.moved > _STRAIN_LASTS:
+        cache = replace(cache, strain_matrices=strain_blocks(problem, control_points), moved=0.0)
     if stage.soft:
         edges, sides = problem.couplings.edges, problem.sides
-        near_edges = find_near_edges(problem.scan, edges, sides, control_points, kept.near_edges)
-        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, kept.borders)
-        kept = replace(kept, near_edges=near_edges, borders=borders)
+        near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, cache.borders)
+        cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
-            kept = replace(kept, body=body_rows(problem, control_points, jet, state.values, borders, kept.body))
-    return kept
+            cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))
+    return cache

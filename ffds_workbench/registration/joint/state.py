@@ -8,47 +8,45 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ..splines import Array
+from ..arrays import Array, Index
 from .assembly import strain_blocks
-from .body import BodyRows
-from .boundary import Borders, NearEdges
-from .cholesky import FrontCholesky
-from .lattice import Index
-from .problem import Across, Problem
-from .settings import Trust
-from .values import CellValues, nothing
+from .body_field import BodyRows
+from .data import Borders, CellHeights, NearEdges, no_heights
+from .linear import FrontCholesky
+from .problem import Problem, ThicknessRows
+from .settings import PriorTrust
 
-_TYPICAL, _SEEN = 0.75, 0.4
+_TYPICAL_QUANTILE, _SEEN_QUANTILE = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
 the scan shows the part, or, where a table fills it, some of the part is seen."""
-_REACH = 1.5
+_REACH_FACTOR = 1.5
 _LEAST_REACH = 3.0
 
 
 @dataclass(frozen=True)
-class Kept:
+class StepCache:
     """What the next step uses again, because the shape hardly changes.
 
     Attributes
     ----------
-    strained : `strain_blocks` of a shape near by
-    across : along which normals thickness is measured
-    turned : how far the shape has moved since `strained`, in mm
+    strain_matrices : `strain_blocks` of a shape near by
+    thickness_rows : along which normals thickness is measured
+    moved : how far the shape has moved since `strain_matrices`, in mm
     nearest : nearest cells of the scan points of this stage, once they were matched
     near_edges, borders : scan points near the edges and visible borders, from the soft stages on
     body : what the body tells of its faces, in its stage
-    factor, stiff : of an earlier normal matrix, and the multiple of the bending weight in it
+    factor, factor_bending : of an earlier normal matrix, and the multiple of the bending weight in it
     """
 
-    strained: Array
-    across: Across
-    turned: float = 0.0
+    strain_matrices: Array
+    thickness_rows: ThicknessRows
+    moved: float = 0.0
     nearest: Index | None = None
     near_edges: NearEdges | None = None
     borders: Borders | None = None
     body: BodyRows | None = None
     factor: FrontCholesky | None = None
-    stiff: float = 0.0
+    factor_bending: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,7 @@ class State:
     noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
-    kept : for the next one
+    cache : what the next one uses again
     facing : outward normals of the sample's points, zero where unknown; None where it does not matter
     trust : in the priors
     last_step : largest movement of a cell in the last iteration, in mm
@@ -72,18 +70,18 @@ class State:
     control_points: Array
     noise: Array
     reach: float
-    values: CellValues
-    kept: Kept
+    values: CellHeights
+    cache: StepCache
     facing: Array | None = None
-    trust: Trust = field(default_factory=Trust)
+    trust: PriorTrust = field(default_factory=PriorTrust)
     last_step: float = np.inf
     iterations: int = 0
     unsure: float = 0.0
 
 
-def keep(problem: Problem, control_points: Array) -> Kept:
+def fresh_cache(problem: Problem, control_points: Array) -> StepCache:
     """What a first step on a shape uses."""
-    return Kept(strain_blocks(problem, control_points), problem.across(control_points))
+    return StepCache(strain_blocks(problem, control_points), problem.thickness_rows(control_points))
 
 
 def start(problem: Problem) -> State:
@@ -93,15 +91,16 @@ def start(problem: Problem) -> State:
     ------
     RefusedError : the scan is farther from the part than the part is large
     """
-    typical = float(np.sort(problem.apart)[int(_TYPICAL * (len(problem.apart) - 1))])
+    distance = np.sort(problem.distance_to_nominal)
+    typical = float(distance[int(_TYPICAL_QUANTILE * (len(distance) - 1))])
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
                            "check the unit of the scan and align it first.")
-    if typical > _LEAST_REACH / _REACH:
+    if typical > _LEAST_REACH / _REACH_FACTOR:
         back = cKDTree(problem.sample).query(problem.cells.nominal.position[problem.cells.inside], workers=-1)[0]
-        typical = min(typical, float(np.quantile(back, _SEEN)))
+        typical = min(typical, float(np.quantile(back, _SEEN_QUANTILE)))
     faces = len(problem.part.faces)
     noise = np.full(faces, problem.statistics.noise)
     still = np.zeros((problem.lattices.count, 3))
-    return State(still, noise, max(_LEAST_REACH, _REACH * typical, 4 * problem.statistics.noise),
-                 nothing(problem.distance.size, noise), keep(problem, still))
+    return State(still, noise, max(_LEAST_REACH, _REACH_FACTOR * typical, 4 * problem.statistics.noise),
+                 no_heights(problem.distance.size, noise), fresh_cache(problem, still))

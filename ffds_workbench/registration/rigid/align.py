@@ -6,24 +6,23 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import FAILED, Alignment
-from .hypothesis import Verified, best_of, nearest_of, turned_on, verify, worth_a_look
+from ..arrays import Array
+from ..scan_sketch import Plane, Sketch, find_table, sketch_of
+from .alignment_result import FAILED, Alignment
+from .deformation import NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS
+from .evidence import weigh_pose
+from .hypothesis import Hypothesis, best_hypothesis, hypothesis_of, nearest_hypothesis, promising, rotate_normals
+from .model import Target
 from .polish import polish
-from .proposals import LOCAL, THOROUGH, Stage, propose
-from .quick import quickly
-from .sketch import Plane, Sketch, find_table, sketch_of
-from .smooth import NOT, SOFT, STIFF
-from .starts import starts_around, starts_of
-from .target import Target
-from .units import plausible_scales
-from .verdict import answer_of, no_answer
-from .verify import examine
+from .quick import align_quickly
+from .search import LOCAL_SEARCH, THOROUGH_SEARCH, SearchStage, propose, starts_around, starts_of
+from .unit_guess import plausible_scales
+from .verdict import alignment_of, failed_alignment
 
-_CERTAIN = 0.95
+_SURE_CERTAINTY = 0.95
 """Certainty from which the surroundings of the best pose are not searched once more."""
-_FEWEST = 50
-_EVERY = 4
+_LEAST_POINTS = 50
+_ROUGH_STRIDE = 4
 """Of the points of the scan that tell which poses are worth a closer look."""
 
 
@@ -55,46 +54,48 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
         if answer.verdict != FAILED:
             break
     if answer is None:
-        return no_answer(f"the scan measures {np.linalg.norm(np.ptp(scan, axis=0)):.3g} mm and the part "
-                         f"{target.size:.3g} mm, which no usual unit explains")
+        return failed_alignment(f"the scan measures {np.linalg.norm(np.ptp(scan, axis=0)):.3g} mm and the part "
+                                f"{target.size:.3g} mm, which no usual unit explains")
     return answer
 
 
 def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator: np.random.Generator) -> Alignment:
     if mode == "fine":
-        quick = quickly(target, scan, scale, generator)
+        quick = align_quickly(target, scan, scale, generator)
         if quick is not None:
             return quick
     sketch = sketch_of(scan, generator)
-    table = find_table(sketch, target.shadow, generator)
+    table = find_table(sketch, target.largest_projection, generator)
     if table is not None:
         scan = scan[table.heights(scan) > table.tolerance]
         sketch = sketch_of(scan, generator)
-    if len(sketch.points) < _FEWEST:
-        return no_answer(f"fewer than {_FEWEST} points of the scan belong together")
+    if len(sketch.points) < _LEAST_POINTS:
+        return failed_alignment(f"fewer than {_LEAST_POINTS} points of the scan belong together")
     if mode == "local":
-        verified = _search(target, sketch, table, starts_around(target, sketch, np.eye(4)), LOCAL, generator)
-        best = nearest_of(verified, sketch.points.mean(axis=0))
+        verified = _search(target, sketch, table, starts_around(target, sketch, np.eye(4)), LOCAL_SEARCH, generator)
+        best = nearest_hypothesis(verified, sketch.points.mean(axis=0))
     else:
-        verified = _search(target, sketch, table, starts_of(target, sketch, mode), THOROUGH, generator)
-        best = best_of(verified, mode, target, sketch)
-        if best.evidence.certainty < _CERTAIN:
-            verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL, generator)
-            best = best_of(verified, mode, target, sketch)
+        verified = _search(target, sketch, table, starts_of(target, sketch, mode), THOROUGH_SEARCH, generator)
+        best = best_hypothesis(verified, mode, target, sketch)
+        if best.evidence.certainty < _SURE_CERTAINTY:
+            verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL_SEARCH,
+                                generator)
+            best = best_hypothesis(verified, mode, target, sketch)
     pose = polish(target, sketch, best.pose, best.normals)
     # the pose has moved little: of the fits with a smooth deformation and without one the best counts
-    normals = turned_on(best, pose)
-    fits = best.evidence, *(examine(target, sketch, pose, normals, table, rounds) for rounds in (NOT, SOFT))
-    best = Verified(pose, max(fits, key=lambda evidence: evidence.score), normals)
-    return answer_of(target, sketch, table, best, verified, scale)
+    normals = rotate_normals(best, pose)
+    fits = best.evidence, *(weigh_pose(target, sketch, pose, normals, table, rounds)
+                            for rounds in (NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS))
+    best = Hypothesis(pose, max(fits, key=lambda evidence: evidence.score), normals)
+    return alignment_of(target, sketch, table, best, verified, scale)
 
 
-def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, stages: Sequence[Stage],
-            generator: np.random.Generator) -> list[Verified]:
+def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, stages: Sequence[SearchStage],
+            generator: np.random.Generator) -> list[Hypothesis]:
     """The most promising poses, refined and verified."""
     candidates = propose(target, sketch, starts, stages, generator)
-    few = sketch.every(_EVERY)
-    rough = [verify(target, few, table, pose, signs, STIFF)
+    few = sketch.every(_ROUGH_STRIDE)
+    rough = [hypothesis_of(target, few, table, pose, signs, STIFF_DEFORMATION_ROUNDS)
              for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
-    return [verify(target, sketch, table, found.pose, candidates.signs[k], SOFT)
-            for k, found in worth_a_look(rough, target)]
+    return [hypothesis_of(target, sketch, table, found.pose, candidates.signs[k], SOFT_DEFORMATION_ROUNDS)
+            for k, found in promising(rough, target)]

@@ -7,34 +7,34 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..splines import Array
-from .fine import refine
-from .motions import angle, apply, shift
+from ..arrays import Array
+from ..motions import angle, apply, shift
+from ..scan_sketch import Plane, Sketch
+from .deformation import Rounds
+from .evidence import Evidence, facing_normals, hides_sides, weigh_pose
+from .model import Target
 from .polish import is_deformed
-from .sketch import Plane, Sketch
-from .smooth import Rounds
-from .target import Target
-from .verify import Evidence, examine, facing_normals, is_rough
+from .refine import refine
 
-_ON = 0.008
+_ON_PART = 0.008
 """Distance, as a share of the part's size, from which a point may lie on the part with its normal turned round."""
-TURNED = 0.15
+MOST_STRAY_NORMALS = 0.15
 """Share of the normals that may be turned round one by one."""
-MARGIN = 0.06
+SCORE_MARGIN = 0.06
 """Poses whose scores differ by less than this share of what is left unexplained fit alike."""
 SAME_TURN, SAME_SHIFT = 0.07, 0.03
 """Poses closer than this (rad, share of the part's size) are one."""
-_WORTH = 0.1
+_PROMISING_MARGIN = 0.1
 """A pose that scores worse by more on few points will not on many turn out to be the best."""
-_ONE_TURN, _ONE = 0.01, 0.005
+_SETTLED_TURN, _SETTLED_SHIFT = 0.01, 0.005
 """Poses closer than this (rad, share of the part's size) have settled in the same place."""
-_SAME_PLACE = 0.005
+_NEARER_BY = 0.005
 """Share of the part's size by which one of two poses has to be nearer to count as the nearer one: less than a sheet is
 thick."""
 
 
 @dataclass(frozen=True)
-class Verified:
+class Hypothesis:
     """A refined pose with what speaks for it and the outward normals it gives the sketch."""
 
     pose: Array
@@ -43,44 +43,45 @@ class Verified:
     reason: str = "found"
 
 
-def verify(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array,
-           rounds: Rounds) -> Verified:
+def hypothesis_of(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array,
+                  rounds: Rounds) -> Hypothesis:
     """The pose refined against the side of the part that the scan shows, and what speaks for it, a smooth deformation
     allowed for that is fitted in these rounds."""
-    pose, normals = refined(target, sketch, pose, signs)
-    if not is_rough(target, sketch):
-        patched, turned = mended(target, sketch, pose, normals, max(_ON * target.size, 4.0 * sketch.noise))
-        if 0.0 < turned < TURNED:
-            closer = refine(target.light, sketch.points, pose, (0.04 * target.size,), 8, patched @ pose[:3, :3])
+    pose, normals = refine_on_side(target, sketch, pose, signs)
+    if not hides_sides(target, sketch):
+        near = max(_ON_PART * target.size, 4.0 * sketch.noise)
+        patched, turned = flip_stray_normals(target, sketch, pose, normals, near)
+        if 0.0 < turned < MOST_STRAY_NORMALS:
+            closer = refine(target.coarse, sketch.points, pose, (0.04 * target.size,), 8, patched @ pose[:3, :3])
             patched = patched @ pose[:3, :3] @ closer[:3, :3].T
             # of a deformed sheet some points lie nearer to the far side
             if not is_deformed(target, sketch, closer, patched):
                 pose, normals = closer, patched
-    return Verified(pose, examine(target.light, sketch, pose, normals, table, rounds), normals)
+    return Hypothesis(pose, weigh_pose(target.coarse, sketch, pose, normals, table, rounds), normals)
 
 
-def refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:
+def refine_on_side(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:
     """The pose after a few steps, and the outward normals of the sketch in the model's frame."""
-    light, gate = target.light, 0.08 * target.size
-    if is_rough(target, sketch):
+    light, gate = target.coarse, 0.08 * target.size
+    if hides_sides(target, sketch):
         pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
         return pose, facing_normals(light, apply(pose, sketch.points))
-    normals = outward(sketch, signs)
+    normals = outward_normals(sketch, signs)
     pose = refine(light, sketch.points, pose, (gate,), 12, normals)
     return pose, normals @ pose[:3, :3].T
 
 
-def outward(sketch: Sketch, signs: Array) -> Array:
+def outward_normals(sketch: Sketch, signs: Array) -> Array:
     """Normals of the sketch, scan coordinates, with the signs (p,) of the largest pieces; (n, 3)."""
     return signs[np.where(sketch.piece < len(signs), sketch.piece, 0)][:, None] * sketch.normals
 
 
-def mended(target: Target, sketch: Sketch, pose: Array, normals: Array, near: float) -> tuple[Array, float]:
+def flip_stray_normals(target: Target, sketch: Sketch, pose: Array, normals: Array, near: float) -> tuple[Array, float]:
     """Normals turned round one by one where the point then lies ``near`` (mm) the part, and the share of those."""
     moved = apply(pose, sketch.points)
-    off = np.flatnonzero(_heights(target.light, moved, normals) > near)
+    off = np.flatnonzero(_heights(target.coarse, moved, normals) > near)
     turned = np.zeros(len(moved), dtype=bool)
-    turned[off] = _heights(target.light, moved[off], -normals[off]) < near
+    turned[off] = _heights(target.coarse, moved[off], -normals[off]) < near
     return np.where(turned[:, None], -normals, normals), float(turned.mean())
 
 
@@ -90,42 +91,42 @@ def _heights(target: Target, points: Array, normals: Array) -> Array:
     return np.where(np.isfinite(distance), np.abs(target.heights(points, nearest)[0]), np.inf)
 
 
-def turned_on(found: Verified, pose: Array) -> Array:
+def rotate_normals(found: Hypothesis, pose: Array) -> Array:
     """The outward normals in the model's frame after the pose has moved on a little."""
     return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
 
 
-def best_of(verified: Sequence[Verified], mode: str, target: Target, sketch: Sketch) -> Verified:
+def best_hypothesis(verified: Sequence[Hypothesis], mode: str, target: Target, sketch: Sketch) -> Hypothesis:
     """The pose that scores best; of those that fit alike, a fine alignment takes the one that turns and moves least."""
-    good = alike(verified)
+    good = equally_good(verified)
     if mode != "global":
         turned = [float(angle(v.pose, np.eye(4))) for v in good]
         good = [v for v, turn in zip(good, turned, strict=True) if turn < min(turned) + SAME_TURN]
         place = sketch.points.mean(axis=0)
         moved = [float(shift(v.pose, np.eye(4), place)) for v in good]
-        good = [v for v, move in zip(good, moved, strict=True) if move < min(moved) + _SAME_PLACE * target.size]
+        good = [v for v, move in zip(good, moved, strict=True) if move < min(moved) + _NEARER_BY * target.size]
     return max(good, key=lambda v: v.evidence.score)
 
 
-def worth_a_look(verified: Sequence[Verified], target: Target) -> list[tuple[int, Verified]]:
+def promising(verified: Sequence[Hypothesis], target: Target) -> list[tuple[int, Hypothesis]]:
     """Poses that may turn out the best, with their numbers; each but once."""
     best = max(v.evidence.score for v in verified)
-    kept: list[tuple[int, Verified]] = []
+    kept: list[tuple[int, Hypothesis]] = []
     for k in sorted(range(len(verified)), key=lambda k: -verified[k].evidence.score):
         one = verified[k]
-        known = any(angle(one.pose, v.pose) < _ONE_TURN and shift(one.pose, v.pose, target.centre) < _ONE * target.size
-                    for _, v in kept)
-        if one.evidence.score > best - _WORTH and not known:
+        known = any(angle(one.pose, v.pose) < _SETTLED_TURN
+                    and shift(one.pose, v.pose, target.centre) < _SETTLED_SHIFT * target.size for _, v in kept)
+        if one.evidence.score > best - _PROMISING_MARGIN and not known:
             kept.append((k, one))
     return kept
 
 
-def alike(verified: Sequence[Verified]) -> list[Verified]:
+def equally_good(verified: Sequence[Hypothesis]) -> list[Hypothesis]:
     """The poses that fit as well as the best one."""
     best = max(v.evidence.score for v in verified)
-    return [v for v in verified if v.evidence.score >= best - MARGIN * (1.0 - best)]
+    return [v for v in verified if v.evidence.score >= best - SCORE_MARGIN * (1.0 - best)]
 
 
-def nearest_of(verified: Sequence[Verified], place: Array) -> Verified:
+def nearest_hypothesis(verified: Sequence[Hypothesis], place: Array) -> Hypothesis:
     """Of the poses that fit alike, the one that moves ``place`` least: a start by hand says which side is meant."""
-    return min(alike(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))
+    return min(equally_good(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import InputError
-from ..splines import Array
-from .motions import best_fit
+from ..arrays import Array
+from ..motions import best_fit
 
-_NARROW = 0.05
+_COLLINEAR = 0.05
 """Points this near to a line, as a share of their spread along it, leave the turn about it open."""
-_UNLIKE = 0.25
+_SIDE_TOLERANCE = 0.25
 """Sides of the two triangles may differ by this share of the longest: scans are deformed, and picks are by hand."""
 
 
@@ -30,10 +30,10 @@ def pose_of_pairs(on_scan: Array, on_model: Array) -> Array:
         raise InputError("The start takes three or more points on the scan and as many on the part, in the same order.")
     for name, points in (("scan", scan), ("part", model)):
         spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-        if spread[1] <= _NARROW * spread[0]:
+        if spread[1] <= _COLLINEAR * spread[0]:
             raise InputError(f"The points on the {name} lie on a line: pick three that span a triangle.")
     sides_scan, sides_model = (np.linalg.norm(points[:, None] - points, axis=2) for points in (scan, model))
-    if np.abs(sides_scan - sides_model).max() > _UNLIKE * sides_model.max():
+    if np.abs(sides_scan - sides_model).max() > _SIDE_TOLERANCE * sides_model.max():
         raise InputError("The points on the scan and on the part span different triangles: pick the same places in the "
                          "same order, and check the unit of the scan.")
     return best_fit(scan, model)

@@ -7,58 +7,58 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import Alignment
-from .deformation import Deformation
-from .fine import refine
-from .hypothesis import TURNED, Verified, best_of, mended, outward, turned_on
-from .motions import motion
+from ..arrays import Array
+from ..motions import motion
+from ..scan_sketch import Plane, Sketch, find_table, sketch_of
+from .alignment_result import Alignment
+from .deformation import (NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS, DisplacementField,
+                          Match)
+from .evidence import hides_sides, match_sketch, misfit_of, weigh_match, weigh_pose
+from .hypothesis import (MOST_STRAY_NORMALS, Hypothesis, best_hypothesis, flip_stray_normals, outward_normals,
+                         rotate_normals)
+from .model import Target
 from .polish import is_deformed, polish_deformed, polish_rigid
-from .proposals import QUICK, propose
-from .sketch import Plane, Sketch, find_table, sketch_of
-from .smooth import NOT, SOFT, STIFF, Match
-from .starts import turns_up_to
-from .target import Target
-from .verdict import FAILS, answer_of
-from .verify import examine, is_rough, matched, misfit_of, weigh
+from .refine import refine
+from .search import QUICK_SEARCH, propose, turns_up_to
+from .verdict import LEAST_CERTAINTY, alignment_of
 
-_FEWEST = 50
-_ROTATIONS, _TURN = 12, 0.5
+_LEAST_POINTS = 50
+_START_TURNS, _LARGEST_START_TURN = 12, 0.5
 """Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
-_POOL, _POINTS, _EVERY = 24_000, 1_500, 3
+_POOL_SIZE, _SKETCH_POINTS, _MATCH_STRIDE = 24_000, 1_500, 3
 """Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
-_WIDE = 0.75
+_BESIDE_PART = 0.75
 """A point farther than this share of the part's size from the centroid of the scan is beside the part."""
-_GATE, _STEPS = 0.08, 5
+_FACE_GATE, _REFINE_STEPS = 0.08, 5
 """Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
-_STIFF_LOOKS, _SOFT_LOOKS = STIFF[:2], SOFT[2:4]
+_STIFF_ROUNDS, _SOFT_ROUNDS = STIFF_DEFORMATION_ROUNDS[:2], SOFT_DEFORMATION_ROUNDS[2:4]
 """Rounds of the deformations that tell the sides: the second one follows where the first one does not tell."""
-_CLEARLY_RIGHT = 0.90
+_LEAST_EXPLAINED = 0.90
 """Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
 explained, but more of one matched with the right one."""
-_CLEARLY_BETTER = 0.65
+_MISFIT_RATIO = 0.65
 """Misfit of the right side over that of the other one, where a smooth deformation is taken back."""
 
 
-def quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
+def align_quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
     """The pose of a clean scan that lies within some 30° of it; None if none is clearly right."""
-    whole = sketch_of(scan, generator, _POINTS, _POOL, 1)
+    whole = sketch_of(scan, generator, _SKETCH_POINTS, _POOL_SIZE, 1)
     table = None
-    if np.linalg.norm(whole.points - whole.points.mean(axis=0), axis=1).max() > _WIDE * target.size:
-        table = find_table(whole, target.shadow, generator)
+    if np.linalg.norm(whole.points - whole.points.mean(axis=0), axis=1).max() > _BESIDE_PART * target.size:
+        table = find_table(whole, target.largest_projection, generator)
     if table is not None:
-        whole = sketch_of(scan[table.heights(scan) > table.tolerance], generator, _POINTS, _POOL, 1)
-    sketch = whole.every(_EVERY)
-    if len(sketch.points) < _FEWEST or is_rough(target, sketch):
+        whole = sketch_of(scan[table.heights(scan) > table.tolerance], generator, _SKETCH_POINTS, _POOL_SIZE, 1)
+    sketch = whole.every(_MATCH_STRIDE)
+    if len(sketch.points) < _LEAST_POINTS or hides_sides(target, sketch):
         return None
     centre = sketch.points.mean(axis=0)
-    rotations = turns_up_to(_TURN, _ROTATIONS)
-    candidates = propose(target, sketch, motion(rotations, target.centre - rotations @ centre), QUICK, generator)
+    rotations = turns_up_to(_LARGEST_START_TURN, _START_TURNS)
+    candidates = propose(target, sketch, motion(rotations, target.centre - rotations @ centre), QUICK_SEARCH, generator)
     # a sheet is seen from one side, and only its rims tell which
-    sides = [_refined(target, sketch, candidates.poses[0], signs)
+    sides = [_refined_side(target, sketch, candidates.poses[0], signs)
              for signs in (candidates.signs[0], -candidates.signs[0])]
-    return (_undeformed(target, sketch, table, sides, scale)
-            or _deformed(target, sketch, table, sides, scale, whole))
+    return (_align_undeformed(target, sketch, table, sides, scale)
+            or _align_deformed(target, sketch, table, sides, scale, whole))
 
 
 @dataclass(frozen=True)
@@ -70,63 +70,65 @@ class _Side:
     normals: Array
 
 
-def _refined(target: Target, sketch: Sketch, pose: Array, signs: Array) -> _Side:
+def _refined_side(target: Target, sketch: Sketch, pose: Array, signs: Array) -> _Side:
     """The pose after a few steps towards the side that the signs tell."""
-    normals = outward(sketch, signs)
-    pose = refine(target.light, sketch.points[::2], pose, (_GATE * target.size,), _STEPS, normals[::2])
+    normals = outward_normals(sketch, signs)
+    pose = refine(target.coarse, sketch.points[::2], pose, (_FACE_GATE * target.size,), _REFINE_STEPS, normals[::2])
     return _Side(pose, signs, normals @ pose[:3, :3].T)
 
 
-def _undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
-                ) -> Alignment | None:
+def _align_undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
+                      ) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part as it is."""
-    clear: list[Verified] = []
+    clear: list[Hypothesis] = []
     for side in sides:
-        if is_deformed(target.light, sketch, side.pose, side.normals):
+        if is_deformed(target.coarse, sketch, side.pose, side.normals):
             continue
-        normals, turned = mended(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
-        if turned >= TURNED:
+        normals, turned = flip_stray_normals(target, sketch, side.pose, side.normals, 4.0 * sketch.noise)
+        if turned >= MOST_STRAY_NORMALS:
             continue
-        evidence = examine(target.light, sketch, side.pose, normals, table, NOT)
-        if evidence.explained > _CLEARLY_RIGHT and evidence.certainty > FAILS:
-            clear.append(Verified(side.pose, evidence, normals))
+        evidence = weigh_pose(target.coarse, sketch, side.pose, normals, table, NO_DEFORMATION_ROUNDS)
+        if evidence.explained > _LEAST_EXPLAINED and evidence.certainty > LEAST_CERTAINTY:
+            clear.append(Hypothesis(side.pose, evidence, normals))
     if not clear:
         return None
-    best = best_of(clear, "fine", target, sketch)
+    best = best_hypothesis(clear, "fine", target, sketch)
     pose = polish_rigid(target, sketch, best.pose)
-    return answer_of(target, sketch, table, Verified(pose, best.evidence, turned_on(best, pose)), clear, scale)
+    return alignment_of(target, sketch, table, Hypothesis(pose, best.evidence, rotate_normals(best, pose)), clear,
+                        scale)
 
 
-def _deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
-              whole: Sketch) -> Alignment | None:
+def _align_deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
+                    whole: Sketch) -> Alignment | None:
     """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other.
 
     ``whole`` is the sketch before it was thinned: all of its points count for the pose.
     """
-    fits = [matched(target.light, sketch, side.pose, side.normals, _STIFF_LOOKS) for side in sides]
-    better = _better(target, sketch, sides, fits)
+    fits = [match_sketch(target.coarse, sketch, side.pose, side.normals, _STIFF_ROUNDS) for side in sides]
+    better = _clearly_better(target, sketch, sides, fits)
     if better is None:
-        fits = [matched(target.light, sketch, side.pose, side.normals, _SOFT_LOOKS, deformation)
+        fits = [match_sketch(target.coarse, sketch, side.pose, side.normals, _SOFT_ROUNDS, deformation)
                 for side, (_, deformation) in zip(sides, fits, strict=True)]
-        better = _better(target, sketch, sides, fits)
+        better = _clearly_better(target, sketch, sides, fits)
     if better is None:
         return None
     side = sides[better]
-    normals = outward(whole, side.signs) @ side.pose[:3, :3].T
+    normals = outward_normals(whole, side.signs) @ side.pose[:3, :3].T
     pose, deformation = polish_deformed(target, whole, side.pose, normals, fits[better][1])
-    normals = outward(sketch, side.signs) @ pose[:3, :3].T
-    found = matched(target.light, sketch, pose, normals, NOT, deformation)[0]
-    evidence = weigh(target.light, sketch, pose, normals, table, found)
-    if evidence.certainty < FAILS or evidence.explained < _CLEARLY_RIGHT:
+    normals = outward_normals(sketch, side.signs) @ pose[:3, :3].T
+    found = match_sketch(target.coarse, sketch, pose, normals, NO_DEFORMATION_ROUNDS, deformation)[0]
+    evidence = weigh_match(target.coarse, sketch, pose, normals, table, found)
+    if evidence.certainty < LEAST_CERTAINTY or evidence.explained < _LEAST_EXPLAINED:
         return None
-    best = Verified(pose, evidence, normals)
-    return answer_of(target, sketch, table, best, [best], scale)
+    best = Hypothesis(pose, evidence, normals)
+    return alignment_of(target, sketch, table, best, [best], scale)
 
 
-def _better(target: Target, sketch: Sketch, sides: Sequence[_Side], fits: Sequence[tuple[Match, Deformation]],
-            ) -> int | None:
+def _clearly_better(target: Target, sketch: Sketch, sides: Sequence[_Side],
+                    fits: Sequence[tuple[Match, DisplacementField]],
+                    ) -> int | None:
     """The number of the side that the scan fits clearly better."""
-    misfits = [misfit_of(target.light, sketch, side.normals, found)
+    misfits = [misfit_of(target.coarse, sketch, side.normals, found)
                for side, (found, _) in zip(sides, fits, strict=True)]
     better = int(np.argmin(misfits))
-    return better if misfits[better] < _CLEARLY_BETTER * misfits[1 - better] else None
+    return better if misfits[better] < _MISFIT_RATIO * misfits[1 - better] else None

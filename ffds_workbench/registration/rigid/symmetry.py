@@ -11,19 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..splines import Array
-from .fine import refine
-from .motions import angle, apply, even_rotations, motion, turn_name
-from .target import Target, once_for_target
+from ..arrays import Array
+from ..motions import angle, apply, even_rotations, motion, turn_name
+from .model import Target, kept_with_target
+from .refine import refine
 
-_EQUAL_MOMENTS = 0.04
-_ANGLES = 72
-_PROBE = 1200
-_HALF = 0.01
+_MOMENT_TOLERANCE = 0.04
+_TRIED_ANGLES = 72
+_PROBE_POINTS = 1200
+_HALF_TURN_TOLERANCE = 0.01
 """Difference in rad from a half turn, which is one about the opposite axis too."""
-_NEAR = 0.02
+_NEARLY_SAME = 0.02
 """Mean distance, as a share of the part's size, up to which the turned part nearly is the same."""
-_EXACT = 0.004
+_EXACTLY_SAME = 0.004
 """Distance, as a share of the part's size, within which all of the turned part lies if it is the same."""
 
 
@@ -46,12 +46,12 @@ class Symmetry:
         """One phrase for the user, empty if there is no symmetry."""
         if self.axis is not None:
             return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*np.round(self.axis, 2) + 0.0)
-        phrases = [turn_name(Rotation.from_matrix(pose[:3, :3]).as_rotvec(), _HALF)
+        phrases = [turn_name(Rotation.from_matrix(pose[:3, :3]).as_rotvec(), _HALF_TURN_TOLERANCE)
                    for pose in self.motions[self.exact]]
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
 
 
-@once_for_target
+@kept_with_target
 def symmetry_of(target: Target) -> Symmetry:
     """Find the self-motions of a part."""
     samples, size = target.samples, target.size
@@ -60,40 +60,40 @@ def symmetry_of(target: Target) -> Symmetry:
     moments, axes = np.linalg.eigh((arm * weight[:, None]).T @ arm)
     axes[:, 2] *= np.sign(np.linalg.det(axes))
     generator = np.random.default_rng(0)
-    chosen = generator.choice(len(weight), min(_PROBE, len(weight)), replace=False, p=weight)
+    chosen = generator.choice(len(weight), min(_PROBE_POINTS, len(weight)), replace=False, p=weight)
     points = samples.points[chosen]
     found: list[Array] = []
     exact: list[bool] = []
     for family in _families(moments, axes):
         poses = motion(family, target.centre - family @ target.centre)
         misses = np.array([_misses(target, points[:150], pose).mean() for pose in poses])
-        if len(poses) == _ANGLES - 1 and misses.max() < 0.5 * _NEAR * size:
+        if len(poses) == _TRIED_ANGLES - 1 and misses.max() < 0.5 * _NEARLY_SAME * size:
             turned = [_is_exact(target, points, pose) for pose in poses]
             if all(turned):
                 return Symmetry(poses[8::9], np.ones(len(poses[8::9]), dtype=bool), _axis(poses[8]))
         lowest = np.ones(len(poses), dtype=bool)
         if len(poses) > 3:
             lowest = (misses <= np.roll(misses, 1)) & (misses <= np.roll(misses, -1))
-        for pose in poses[(misses < 2.0 * _NEAR * size) & lowest]:
-            pose = refine(target, points, pose, (4.0 * _NEAR * size, 2.0 * _NEAR * size), 5)
+        for pose in poses[(misses < 2.0 * _NEARLY_SAME * size) & lowest]:
+            pose = refine(target, points, pose, (4.0 * _NEARLY_SAME * size, 2.0 * _NEARLY_SAME * size), 5)
             new = angle(pose, np.eye(4)) > 0.05 and all(angle(pose, other) > 0.05 for other in found)
-            if new and _misses(target, points, pose).mean() < _NEAR * size:
+            if new and _misses(target, points, pose).mean() < _NEARLY_SAME * size:
                 exact.append(_is_exact(target, points, pose))
-                found.append(refine(target, samples.points[::4], pose, (_EXACT * size,)) if exact[-1] else pose)
+                found.append(refine(target, samples.points[::4], pose, (_EXACTLY_SAME * size,)) if exact[-1] else pose)
     return Symmetry(np.array(found).reshape(-1, 4, 4), np.array(exact, dtype=bool), None)
 
 
 def _families(moments: Array, axes: Array) -> list[Array]:
     """Rotations that keep the moments of inertia, neighbours next to one another: a list of (k, 3, 3)."""
     scale = moments[2]
-    low, high = moments[1] - moments[0] < _EQUAL_MOMENTS * scale, moments[2] - moments[1] < _EQUAL_MOMENTS * scale
+    low, high = moments[1] - moments[0] < _MOMENT_TOLERANCE * scale, moments[2] - moments[1] < _MOMENT_TOLERANCE * scale
     half_turns = Rotation.from_rotvec(np.pi * axes.T).as_matrix()
     if low and high:
         return [rotation[None] for rotation in even_rotations(300)]
     if not (low or high):
         return [half_turns]
     k = 2 if low else 0
-    angles = 2.0 * np.pi * np.arange(1, _ANGLES) / _ANGLES
+    angles = 2.0 * np.pi * np.arange(1, _TRIED_ANGLES) / _TRIED_ANGLES
     turns = Rotation.from_rotvec(angles[:, None] * axes[:, k]).as_matrix()
     flip = half_turns[(k + 1) % 3]
     return [turns, np.concatenate([flip[None], turns @ flip])]
@@ -109,7 +109,7 @@ def _misses(target: Target, points: Array, pose: Array) -> Array:
 
 
 def _is_exact(target: Target, points: Array, pose: Array) -> bool:
-    return bool(np.quantile(_misses(target, points, pose), 0.99) < _EXACT * target.size)
+    return bool(np.quantile(_misses(target, points, pose), 0.99) < _EXACTLY_SAME * target.size)
 
 
 def _axis(pose: Array) -> Array:

@@ -7,64 +7,64 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..splines import Array
-from .alignment import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
-from .hypothesis import MARGIN, SAME_SHIFT, SAME_TURN, Verified
-from .motions import angle, apply, shift
+from ..arrays import Array
+from ..motions import angle, apply, shift
+from ..scan_sketch import Plane, Sketch
+from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
+from .hypothesis import SAME_SHIFT, SAME_TURN, SCORE_MARGIN, Hypothesis
+from .model import Target
 from .polish import polish
-from .sketch import Plane, Sketch
 from .symmetry import Symmetry, symmetry_of
-from .target import Target
-from .units import unit_name
+from .unit_guess import unit_name
 
-_COUNTED = 1_000
+_FITNESS_POINTS = 1_000
 """Points for the fitness."""
-FAILS = 0.79
+LEAST_CERTAINTY = 0.79
 """Certainty below which a pose is no answer: the ten scans of other parts in the benchmark reach 0.72, and of 45 of
 deformed other parts one 0.788; those of the part itself 0.80 where it is deformed by 5 mm, 0.85 with 20 % stray points.
 """
 _LEAST_COVERAGE = 0.12
-_REACH = 0.02
+_FITNESS_REACH = 0.02
 """Distance within which a point counts as on the part, as a share of the part's size."""
 
 
-def answer_of(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
-              scale: float) -> Alignment:
+def alignment_of(target: Target, sketch: Sketch, table: Plane | None, best: Hypothesis, verified: Sequence[Hypothesis],
+                 scale: float) -> Alignment:
     """The verdict: is the best pose good enough, and does another one fit as well?"""
     evidence = best.evidence
     symmetry = symmetry_of(target)
     rivals = _rivals(target, sketch, table, best, verified, symmetry)
     poses = (CandidatePose(best.pose, evidence.score, "found"),
              *(CandidatePose(rival.pose, rival.evidence.score, rival.reason) for rival in rivals))
-    moved = apply(best.pose, sketch.pool[:_COUNTED])
+    moved = apply(best.pose, sketch.pool[:_FITNESS_POINTS])
     distance, closest = target.tree.query(moved)
-    reach = max(_REACH * target.size, 2.5 * sketch.noise)
+    reach = max(_FITNESS_REACH * target.size, 2.5 * sketch.noise)
     near = distance < reach
     height = target.heights(moved[near], closest[near])[0] if near.any() else np.zeros(1)
     reason, verdict = "", OK
-    if evidence.certainty < FAILS or evidence.coverage < _LEAST_COVERAGE:
+    if evidence.certainty < LEAST_CERTAINTY or evidence.coverage < _LEAST_COVERAGE:
         verdict, poses = FAILED, poses[:1]
         reason = (f"only {100 * evidence.explained:.0f} % of the scan lies on the part and only "
                   f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
     elif rivals:
         verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
-    sure = float(np.clip((evidence.certainty - FAILS) / (1.0 - FAILS), 0.0, 1.0))
+    sure = float(np.clip((evidence.certainty - LEAST_CERTAINTY) / (1.0 - LEAST_CERTAINTY), 0.0, 1.0))
     confidence = sure / (len(poses) if verdict == AMBIGUOUS else 1)
     return Alignment(best.pose, verdict, confidence, poses, reach, float(near.mean()),
                      float(np.sqrt(np.mean(height**2))), evidence.explained, evidence.coverage, symmetry.text(), scale,
                      unit_name(scale), table is not None, reason)
 
 
-def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified, verified: Sequence[Verified],
-            symmetry: Symmetry) -> list[Verified]:
+def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Hypothesis, verified: Sequence[Hypothesis],
+            symmetry: Symmetry) -> list[Hypothesis]:
     """Other poses that fit as well as the best: the part's symmetry, and what else the search found."""
     turned = []
     for pose, exact in zip(symmetry.motions, symmetry.exact, strict=True):
         if exact:
-            turned.append(Verified(pose @ best.pose, best.evidence, best.normals, "symmetry of the part"))
-    margin = MARGIN * (1.0 - best.evidence.score)
+            turned.append(Hypothesis(pose @ best.pose, best.evidence, best.normals, "symmetry of the part"))
+    margin = SCORE_MARGIN * (1.0 - best.evidence.score)
     place = sketch.points.mean(axis=0)
-    rivals: list[Verified] = []
+    rivals: list[Hypothesis] = []
     found = [v for v in verified if v.evidence.score > best.evidence.score - margin]
     for other in [*turned, *sorted(found, key=lambda v: -v.evidence.score)]:
         known = (best, *rivals)
@@ -75,10 +75,10 @@ def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Verified,
     return rivals
 
 
-def _is_new(pose: Array, known: Sequence[Verified], place: Array, size: float) -> bool:
+def _is_new(pose: Array, known: Sequence[Hypothesis], place: Array, size: float) -> bool:
     return all(angle(pose, other.pose) > SAME_TURN or shift(pose, other.pose, place) > SAME_SHIFT * size
                for other in known)
 
 
-def no_answer(reason: str) -> Alignment:
+def failed_alignment(reason: str) -> Alignment:
     return Alignment(np.eye(4), FAILED, 0.0, (), 0.0, 0.0, 0.0, 0.0, 0.0, "", 1.0, "mm", False, reason)

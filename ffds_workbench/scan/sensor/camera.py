@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .settings import View
 
 _PIXEL = 0.4

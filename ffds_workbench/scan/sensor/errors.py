@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 
 _WAVES = 400
 _CHUNK = 50_000

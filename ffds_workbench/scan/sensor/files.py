@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 
 
 def write_ply(path: Path, points: Array, normals: Array | None = None) -> None:

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from . import errors
 from .camera import Camera, DepthPicture, depth_picture, pixel_size, place, sees
 from .settings import SensorSettings
-from .target import Target
+from .target import Scene
 
 _NEARNESS = 1.6
 """Points are drawn this much denser than the picture's, for surfaces nearer to the camera than the stand-off."""
@@ -48,7 +48,7 @@ class _Shot:
     face: NDArray[np.intp]
 
 
-def simulate(target: Target, settings: SensorSettings) -> SimulatedScan:
+def simulate(target: Scene, settings: SensorSettings) -> SimulatedScan:
     """Scan a target.
 
     Raises
@@ -76,7 +76,7 @@ def simulate(target: Target, settings: SensorSettings) -> SimulatedScan:
     return SimulatedScan(points[order], face[order], number[order], poses)
 
 
-def cameras(target: Target, settings: SensorSettings) -> list[tuple[Camera, DepthPicture]]:
+def cameras(target: Scene, settings: SensorSettings) -> list[tuple[Camera, DepthPicture]]:
     """The camera of every view and its depth picture of the target."""
     if not settings.views:
         return []
@@ -92,7 +92,7 @@ def in_field(picture: Array, settings: SensorSettings) -> NDArray[np.bool_]:
     return (np.abs(picture) <= 0.5 * np.array(settings.field)).all(axis=1)
 
 
-def _everywhere(target: Target, settings: SensorSettings, rng: np.random.Generator) -> _Shot:
+def _everywhere(target: Scene, settings: SensorSettings, rng: np.random.Generator) -> _Shot:
     samples = target.sample(settings.spacing**-2, rng)
     if settings.edge_dropout:
         boundary = target.boundary(0.25 * settings.edge_band)
@@ -102,7 +102,7 @@ def _everywhere(target: Target, settings: SensorSettings, rng: np.random.Generat
     return _Shot(samples.points + heights[:, None] * samples.normals, samples.face)
 
 
-def _shot(target: Target, camera: Camera, depths: DepthPicture, settings: SensorSettings, table: float | None,
+def _shot(target: Scene, camera: Camera, depths: DepthPicture, settings: SensorSettings, table: float | None,
           rng: np.random.Generator) -> _Shot:
     """One shot: what is seen, as dense as the picture is, with noise along the lines of sight."""
     samples = target.sample(_NEARNESS * settings.spacing**-2, rng)
@@ -125,7 +125,7 @@ def _shot(target: Target, camera: Camera, depths: DepthPicture, settings: Sensor
     return _Shot(points + along[:, None] * camera.towards(points), face)
 
 
-def _table(target: Target, camera: Camera, depths: DepthPicture, settings: SensorSettings, distance: float,
+def _table(target: Scene, camera: Camera, depths: DepthPicture, settings: SensorSettings, distance: float,
            rng: np.random.Generator) -> Array:
     """Points of the flat background, where the part does not hide it; (n, 3)."""
     seen, depth = camera.project(target.grid(2.0))

@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...registration.face import FaceGeometry
-from ...registration.splines import Array
+from ...registration.arrays import Array
+from ...registration.face_geometry import FaceGeometry
 
 Displace = Callable[[Array, Array], Array]
 """(uv (n, 2), nominal points (n, 3)) to displacements (n, 3) in mm."""
@@ -38,7 +38,7 @@ class Samples:
         return len(self.points)
 
 
-def inside_trims(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
+def inside_outlines(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
     """Which of the parameters (n, 2) lie on the material side of the trims, by the even-odd rule; (n,)."""
     from matplotlib.path import Path as Polygon
 
@@ -49,7 +49,7 @@ def inside_trims(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
     return inside
 
 
-class Target:
+class Scene:
     """Faces and what displaces them.
 
     Parameters
@@ -81,7 +81,7 @@ class Target:
         return nominal if move is None else nominal + move(uv, nominal)
 
     @cached_property
-    def cells(self) -> tuple[_Cells, ...]:
+    def cells(self) -> tuple[_FaceCells, ...]:
         """Per face, small (u, v) cells with their areas and normals."""
         return tuple(_cells(self, i) for i in range(len(self.faces)))
 
@@ -124,7 +124,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class _Cells:
+class _FaceCells:
     """Cells of one face between the lines u (m,) and v (n,): areas (m−1, n−1) in mm², outward normals (m−1, n−1, 3).
 
     ``sides``: longest side of the cells of each strip, in u (m−1,) and in v (n−1,), in mm.
@@ -136,7 +136,7 @@ class _Cells:
     normal: Array
     sides: tuple[Array, Array]
 
-    def sample(self, target: Target, index: int, density: float, rng: np.random.Generator) -> tuple:
+    def sample(self, target: Scene, index: int, density: float, rng: np.random.Generator) -> tuple:
         area = self.area.ravel()
         count = int(np.floor(area.sum() * density + rng.random()))
         cell = np.searchsorted(np.cumsum(area), rng.random(count) * area.sum(), side="right")
@@ -145,15 +145,15 @@ class _Cells:
         u = self.u[i] + rng.random(count) * (self.u[i + 1] - self.u[i])
         v = self.v[j] + rng.random(count) * (self.v[j + 1] - self.v[j])
         uv = np.stack([u, v], axis=1)
-        kept = inside_trims(target.faces[index].trims, uv)
+        kept = inside_outlines(target.faces[index].trims, uv)
         uv, cell = uv[kept], cell[kept]
         return target.points(index, uv), self.normal.reshape(-1, 3)[cell], np.full(len(uv), index), uv
 
-    def grid(self, target: Target, index: int, step: float) -> Array:
+    def grid(self, target: Scene, index: int, step: float) -> Array:
         u = _divided(self.u, self.sides[0], step)
         v = _divided(self.v, self.sides[1], step)
         uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
-        kept = inside_trims(target.faces[index].trims, uv)
+        kept = inside_outlines(target.faces[index].trims, uv)
         return target.on_grid(index, u, v).reshape(-1, 3)[kept]
 
 
@@ -176,7 +176,7 @@ def _divided(lines: Array, sides: Array, step: float) -> Array:
     return lines[strip] + (within + 0.5) / pieces[strip] * np.diff(lines)[strip]
 
 
-def _cells(target: Target, index: int) -> _Cells:
+def _cells(target: Scene, index: int) -> _FaceCells:
     """Every span of the surface's knots, divided until a cell measures about a millimetre or two."""
     face = target.faces[index]
     u0, u1, v0, v1 = face.surface.range
@@ -199,7 +199,7 @@ def _cells(target: Target, index: int) -> _Cells:
     area = np.linalg.norm(normal, axis=2)
     sides = (np.linalg.norm(np.diff(points, axis=0), axis=2).max(axis=1),
              np.linalg.norm(np.diff(points, axis=1), axis=2).max(axis=0))
-    return _Cells(u, v, area, normal / np.maximum(area, 1e-300)[..., None], sides)
+    return _FaceCells(u, v, area, normal / np.maximum(area, 1e-300)[..., None], sides)
 
 
 def _refined(lines: Array, sides: Array) -> Array:

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .camera import sees
 from .settings import SensorSettings
 from .simulate import cameras, in_field
-from .target import Target, inside_trims
+from .target import Scene, inside_outlines
 
 EDGE_SAMPLES = 200
 _SPACING = 1.2
-_LEAST, _MOST = 120, 3000
+_LEAST_SAMPLES, _LARGEST_SAMPLES = 120, 3000
 _SHEET_POINTS = 600
-_NEAR = 2.0
+_CONTACT_SEARCH = 2.0
 """A point this close to a corner of a face's cells may have its foot on the face."""
 
 
@@ -55,7 +55,7 @@ class Truth:
             np.savez_compressed(file, **self.__dict__)
 
 
-def make_truth(target: Target, settings: SensorSettings, edges_nominal: Array, edges: Array,
+def make_truth(target: Scene, settings: SensorSettings, edges_nominal: Array, edges: Array,
                thickness: float | None = None) -> Truth:
     """The truth of what ``simulate(target, settings)`` scans.
 
@@ -66,7 +66,8 @@ def make_truth(target: Target, settings: SensorSettings, edges_nominal: Array, e
     """
     rng = np.random.default_rng(settings.seed)
     area = np.array([cells.area.sum() for cells in target.cells])
-    samples = target.sample(np.clip(area / _SPACING**2, _LEAST, _MOST) / np.maximum(area, 1e-12), rng)
+    samples = target.sample(np.clip(area / _SPACING**2, _LEAST_SAMPLES, _LARGEST_SAMPLES) / np.maximum(area, 1e-12),
+                            rng)
     seen = np.zeros(len(samples), dtype=bool)
     for camera, depths in cameras(target, settings):
         inside = in_field(camera.project(samples.points)[0], settings)
@@ -82,13 +83,13 @@ def make_truth(target: Target, settings: SensorSettings, edges_nominal: Array, e
                  edges_nominal, edges, *pairs, np.eye(4))
 
 
-def _sheet(target: Target, nominal: Array, warped: Array, face: NDArray[np.intp], uv: Array, thickness: float | None,
+def _sheet(target: Scene, nominal: Array, warped: Array, face: NDArray[np.intp], uv: Array, thickness: float | None,
            rng: np.random.Generator) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
     """Points whose opposite skin lies one thickness behind them, that skin's face, and the distance to it now."""
     empty = np.zeros(0, dtype=np.intp)
     if thickness is None:
         return empty, empty, np.zeros(0)
-    plain = Target(target.faces)
+    plain = Scene(target.faces)
     index, opposite, distance = [], [], []
     candidates = rng.permutation(len(face))[: 4 * _SHEET_POINTS]
     behind = np.empty((len(candidates), 3))
@@ -96,11 +97,11 @@ def _sheet(target: Target, nominal: Array, warped: Array, face: NDArray[np.intp]
         mine = face[candidates] == i
         behind[mine] = nominal[candidates[mine]] - thickness * _normals(plain, i, uv[candidates[mine]])
     for j in range(len(target.faces)):
-        near = np.flatnonzero((face[candidates] != j) & (_grid_tree(plain, j)[1].query(behind)[0] < _NEAR))
+        near = np.flatnonzero((face[candidates] != j) & (_grid_tree(plain, j)[1].query(behind)[0] < _CONTACT_SEARCH))
         if not len(near):
             continue
         start, gap = foot(plain, j, behind[near])
-        pair = (gap < 1e-4) & inside_trims(target.faces[j].trims, start)
+        pair = (gap < 1e-4) & inside_outlines(target.faces[j].trims, start)
         mine = candidates[near[pair]]
         index.append(mine)
         opposite.append(np.full(len(mine), j))
@@ -112,13 +113,13 @@ def _sheet(target: Target, nominal: Array, warped: Array, face: NDArray[np.intp]
     return pairs[pick], faces[pick], distances[pick]
 
 
-def _normals(target: Target, i: int, uv: Array) -> Array:
+def _normals(target: Scene, i: int, uv: Array) -> Array:
     a, b = _tangents(target, i, uv)
     normal = target.faces[i].outward * np.cross(a, b)
     return normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
 
 
-def _tangents(target: Target, i: int, uv: Array) -> tuple[Array, Array]:
+def _tangents(target: Scene, i: int, uv: Array) -> tuple[Array, Array]:
     """Derivatives of the displaced surface by central differences, (n, 3) each."""
     u0, u1, v0, v1 = target.faces[i].surface.range
     result = []
@@ -129,14 +130,14 @@ def _tangents(target: Target, i: int, uv: Array) -> tuple[Array, Array]:
     return result[0], result[1]
 
 
-def _grid_tree(target: Target, i: int) -> tuple[Array, cKDTree]:
+def _grid_tree(target: Scene, i: int) -> tuple[Array, cKDTree]:
     """(u, v) at the corners of a face's cells, and a tree of the points there."""
     cells = target.cells[i]
     grid = np.stack(np.meshgrid(cells.u, cells.v, indexing="ij"), axis=-1).reshape(-1, 2)
     return grid, cKDTree(target.points(i, grid))
 
 
-def foot(target: Target, i: int, points: Array, start: Array | None = None, steps: int = 12) -> tuple[Array, Array]:
+def foot(target: Scene, i: int, points: Array, start: Array | None = None, steps: int = 12) -> tuple[Array, Array]:
     """Foot points on a displaced face: (u, v) (n, 2) and distance (n,), by Gauss-Newton from ``start`` or a grid."""
     if start is None:
         grid, tree = _grid_tree(target, i)

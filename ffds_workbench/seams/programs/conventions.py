@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 
 
 def kuka_angles(rotations: Array) -> Array:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from ..measured import MeasuredSeam
 
 FrameChoice = int | str | tuple[float, ...] | None

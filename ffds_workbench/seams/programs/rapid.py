@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...errors import InputError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .conventions import abb_quaternions, from_kuka_angles
 from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import FreeCAD
 import Robot
 
-from ...brep import document_colours
+from ...brep.model_files import document_colours
 from ...errors import RefusedError
 from .moves import AIR_VELOCITY, RobotSettings, SeamMoves
 

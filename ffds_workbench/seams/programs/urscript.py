@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...errors import InputError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .conventions import from_kuka_angles, ur_rotation_vectors
 from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Model files: read into a shape with its name and face colours, and written complete.
+
+Faces are numbered as ``Part.read`` numbers the whole file. From a FreeCAD document one object is taken, where it
+stands in the document (its placement and those of the parts that hold it applied).
+"""
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import FreeCAD
+import Part
+
+from ...compat import write_step
+from ...errors import InputError, RefusedError
+from . import document_colours, step_colours, step_order
+from .step_colours import Decoration
+
+_EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
+_DOCUMENT = ".fcstd"
+_MOST_UNCERTAIN = 0.001
+"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
+FORMATS = ".step .stp .iges .igs .brep .FCStd"
+OUTPUT_FORMATS = (".step", ".stp", ".brep", _DOCUMENT)
+
+
+@dataclass(frozen=True)
+class Model:
+    """A shape and what belongs to it.
+
+    Attributes
+    ----------
+    shape : Part.Shape
+    label : the name of the product or of the document object
+    decoration : names and colours of its faces and solids
+    """
+
+    shape: Part.Shape
+    label: str
+    decoration: Decoration = Decoration()
+
+
+def read(path: str | Path, label: str | None = None) -> Model:
+    """Read a model file.
+
+    Parameters
+    ----------
+    path : a file of the `FORMATS`
+    label : for a FreeCAD document, the label or name of the object to take; needed where it holds several
+
+    Raises
+    ------
+    InputError : the file is missing, damaged, of an unknown format, or holds no faces; there is no such object
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if path.is_dir():
+        raise InputError(f"The model {path} is a folder: name a file.")
+    if not path.exists():
+        raise InputError(f"The model {path} does not exist.")
+    if suffix not in (*_EXCHANGE, _DOCUMENT):
+        raise InputError(f"The model {path} is of an unknown format: use one of {FORMATS}.")
+    if path.stat().st_size == 0:
+        raise InputError(f"The model {path} is empty.")
+    if suffix == _DOCUMENT:
+        return _checked(path, _read_document(path, label))
+    if label is not None:
+        raise InputError(f"--object picks an object of a FreeCAD document, and {path} is none.")
+    try:
+        shape = Part.read(str(path))
+    except (RuntimeError, OSError, ValueError, Part.OCCError, FreeCAD.Base.FreeCADError) as error:
+        raise InputError(f"The model {path} cannot be read: it is damaged or not a {suffix} file.") from error
+    model = _checked(path, Model(shape, path.stem))
+    if suffix not in (".step", ".stp"):
+        return model
+    decoration = step_colours.read(path.read_text("utf-8", errors="replace"), _kinds(shape))
+    return Model(shape, decoration.product or path.stem, decoration)
+
+
+def _kinds(shape: Part.Shape) -> list[str]:
+    return [type(face.Surface).__name__ for face in shape.Faces]
+
+
+def _checked(path: Path, model: Model) -> Model:
+    if model.shape.isNull():
+        raise InputError(f"The model {path} holds no shape: it is damaged or empty.")
+    if not model.shape.Faces:
+        raise InputError(f"The model {path} has no faces: FFDS deforms the faces of a solid, shell or compound.")
+    if not model.shape.isValid():
+        raise InputError(f"The model {path} is not a valid shape (Part: Check geometry lists why): repair it first.")
+    return model
+
+
+def from_object(item: object) -> Model:
+    """A shape, or a document object where it stands, as a model.
+
+    Raises
+    ------
+    InputError : there is no shape with faces in it
+    """
+    if isinstance(item, Part.Shape):
+        return _checked(Path("(shape)"), Model(item, "Shape"))
+    if not hasattr(item, "Shape"):
+        raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part.")
+    colours = ()
+    if getattr(item, "ViewObject", None) is not None:
+        colours = tuple(map(tuple, getattr(item.ViewObject, "DiffuseColor", ())))
+    return _checked(Path(item.Label), Model(_placed_shape(item), item.Label, Decoration(colours=colours)))
+
+
+def _placed_shape(item: object) -> Part.Shape:
+    """The object's shape in the document's coordinates."""
+    shape = Part.getShape(item).copy()
+    if not shape.isNull():
+        shape.Placement = outer_placement(item).multiply(shape.Placement)
+    return shape
+
+
+def outer_placement(item: object) -> FreeCAD.Placement:
+    """From the coordinates of what holds a document object to the document's; a link does not know it itself."""
+    holder = item.getParentGeoFeatureGroup()
+    return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
+
+
+def _read_document(path: Path, label: str | None) -> Model:
+    if not zipfile.is_zipfile(path):
+        raise InputError(f"The model {path} is damaged or not a FreeCAD document.")
+    with _opened(path) as document:
+        item = _pick(path, document, label)
+        colours = document_colours.read(path, item.Name)
+        return Model(_placed_shape(item), item.Label, Decoration(colours=colours))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[FreeCAD.Document]:
+    """The document of a file: the one that is open already and stays so, or one opened for the moment."""
+    for document in FreeCAD.listDocuments().values():
+        if document.FileName and Path(document.FileName).resolve() == path.resolve():
+            yield document
+            return
+    try:
+        document = FreeCAD.openDocument(str(path), hidden=True)
+    except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
+        raise InputError(f"The model {path} is damaged or not a FreeCAD document.") from error
+    try:
+        yield document
+    finally:
+        FreeCAD.closeDocument(document.Name)
+
+
+def _pick(path: Path, document: object, label: str | None) -> object:
+    """The object that is asked for, or the only one that stands for itself."""
+    candidates = [item for item in document.Objects if hasattr(item, "Shape") and item.Shape.Faces]
+    if label is not None:
+        named = [item for item in candidates if label in (item.Label, item.Name)]
+        if not named:
+            known = ", ".join(f"'{item.Label}'" for item in candidates) or "none"
+            raise InputError(f"{path} has no object '{label}' with faces; it has {known}.")
+        return named[0]
+    whole = [item for item in candidates if not any(hasattr(user, "Shape") for user in item.InList)]
+    if not whole:
+        raise InputError(f"{path} has no object with faces.")
+    if len(whole) > 1:
+        known = ", ".join(f"'{item.Label}'" for item in whole)
+        raise InputError(f"{path} holds several objects: pick one with --object, of {known}.")
+    return whole[0]
+
+
+def check_output(path: Path) -> None:
+    """Refuse a model format that cannot be written (InputError)."""
+    if path.suffix.lower() not in OUTPUT_FORMATS:
+        raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
+
+
+def write(model: Model, path: Path) -> None:
+    """Write a model to a new file; wrap it in `output.replacing` to replace an old one.
+
+    The name and the colours go into STEP and FCStd. A STEP file is read back and must hold the same faces, valid.
+
+    Raises
+    ------
+    InputError : the format is unknown
+    RefusedError : the file could not be written whole, or does not hold the same shape
+    """
+    check_output(path)
+    suffix = path.suffix.lower()
+    if suffix == ".brep":
+        path.write_text(model.shape.exportBrepToString(), "utf-8")
+    elif suffix == _DOCUMENT:
+        _write_document(model, path)
+    else:
+        _write_step(model, path)
+
+
+def _write_step(model: Model, path: Path) -> None:
+    try:
+        write_step(step_order.ordered(model.shape), path)
+    except (OSError, RuntimeError, Part.OCCError) as error:
+        raise RefusedError(f"The STEP file could not be written: {error}.") from error
+    if not path.exists() or not step_colours.is_complete(path):
+        raise RefusedError("The STEP file could not be written whole: is the disk full?")
+    decoration = replace(model.decoration, product=model.label)
+    text = step_colours.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape))
+    path.write_text(step_colours.with_uncertainty(text, min(_tolerance(model.shape), _MOST_UNCERTAIN)), "utf-8")
+    copy = Part.read(str(path))
+    if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):
+        raise RefusedError("The STEP file does not hold all faces of the result: write .brep or .FCStd.")
+    if not copy.isValid():
+        raise RefusedError("The STEP file does not read back as a valid shape: write .brep or .FCStd.")
+
+
+def _tolerance(shape: Part.Shape) -> float:
+    """Largest tolerance of an edge or vertex in mm."""
+    return max((part.Tolerance for part in (*shape.Edges, *shape.Vertexes)), default=0.0)
+
+
+def _bodies(shape: Part.Shape) -> int:
+    """Solids that have faces; a STEP file has no others."""
+    return sum(1 for solid in shape.Solids if solid.Faces)
+
+
+def _write_document(model: Model, path: Path) -> None:
+    document = FreeCAD.newDocument("FFDS_output", hidden=True, temp=True)
+    try:
+        item = document.addObject("Part::Feature", "AsBuilt")
+        item.Label = model.label
+        item.Shape = model.shape
+        name, view = item.Name, getattr(item, "ViewObject", None)
+        document.recompute()
+        if view is not None and model.decoration.colours:
+            view.DiffuseColor = list(model.decoration.colours)
+        document.saveAs(str(path))
+    except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
+        raise RefusedError(f"The document could not be written: {error}.") from error
+    finally:
+        FreeCAD.closeDocument(document.Name)
+    if not zipfile.is_zipfile(path):
+        raise RefusedError("The document could not be written whole: is the disk full?")
+    if view is None:
+        document_colours.add_views(path, {name: model.decoration.colours})
+    with zipfile.ZipFile(path) as archive:
+        if archive.testzip() is not None:
+            raise RefusedError("The document could not be written whole: is the disk full?")

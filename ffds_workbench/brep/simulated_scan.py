@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scans of a Part shape by the virtual sensor, and their ground truth."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import Part
+
+from ..registration.arrays import Array
+from ..scan.sensor import Scene, SensorSettings, SimulatedScan, Truth, make_truth, simulate
+from ..scan.sensor.target import Displace
+from ..scan.sensor.truth import EDGE_SAMPLES
+from . import workpiece
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A simulated scan and the truth behind it."""
+
+    scan: SimulatedScan
+    truth: Truth
+
+
+def scene_of(shape: Part.Shape, displace: Mapping[int, Displace] | None = None) -> Scene:
+    """What the sensor sees of a shape whose faces (by index) may be displaced.
+
+    Raises
+    ------
+    InputError : the shape is empty or has no faces
+    """
+    part = workpiece.read(shape)
+    return Scene([part.geometry(index) for index in range(len(part.faces))], displace)
+
+
+def simulate_shape(shape: Part.Shape, settings: SensorSettings) -> Simulation:
+    """Scan a shape as it is.
+
+    Raises
+    ------
+    InputError : the shape is empty or has no faces
+    RefusedError : no view sees anything of it
+    """
+    target = scene_of(shape)
+    edges = edge_points(shape)
+    return Simulation(simulate(target, settings), make_truth(target, settings, edges, edges))
+
+
+def edge_points(shape: Part.Shape, count: int = EDGE_SAMPLES) -> Array:
+    """Points along every edge in the shape's order, (edges, count, 3); a degenerate edge is its vertex."""
+    lines = []
+    for edge in shape.Edges:
+        if edge.Degenerated:
+            lines.append([tuple(edge.Vertexes[0].Point)] * count)
+        else:
+            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, count)])
+    return np.array(lines).reshape(-1, count, 3)

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of the deformation: what is picked and set on one side, the live preview on the other."""
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCADGui as Gui
+import numpy as np
+
+from ...errors import FfdsError, InputError
+from ...objects.as_built import settings_of
+from ...objects.job import Job, Settings, make_job
+from ...objects.sources import Source, standing_for
+from .. import running
+from ..preferences import preferences
+from ..preview.drawing import PreviewDrawing
+from ..preview.patches import Patch, figures
+from ..preview.runner import PreviewRunner
+from ..qt import QtCore, QtWidgets, number_of
+from ..selection import Chosen, chosen, scans_of
+from ..translating import said, tr
+from ..view3d.colours import good_limit
+from ..view3d.overlay import Overlay
+from .closing import WithDocument
+from .deformation_form import DeformationForm
+
+
+def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
+    """Open the panel on the selection, on the whole part, or on the as-built part ``item`` to change it."""
+    if Gui.Control.activeDialog():
+        running.tell(tr("Another task is open: finish or close it first."))
+        return
+    with running.telling():
+        Gui.Control.showDialog(DeformationPanel(document, item, whole))
+
+
+class DeformationPanel:
+    """FreeCAD's task panel. Nothing is written into the document before OK."""
+
+    def __init__(self, document: Any, item: Any, whole: bool) -> None:
+        self._document, self._item = document, item
+        self._source: Any = None
+        self._faces: tuple[str, ...] = ()
+        self._hint, self._adding = "", False
+        self._read: tuple[tuple[Any, Any], Source, Any] | None = None
+        self._worker: running.Worker | None = None
+        self._wished = preferences()
+        self.form = DeformationForm(scans_of(document), item is not None)
+        self._take(item, chosen(), whole)
+        Gui.Selection.clearSelection()
+        self._overlay = Overlay(document.Name)
+        self._drawing = PreviewDrawing(self._overlay)
+        self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
+        self.form.destroyed.connect(self._let_go)
+        self.form.changed.connect(self._preview)
+        Gui.Selection.addObserver(self)
+        self._watching = True
+        self._with_document = WithDocument(document.Name, self._stop, self._close)
+        QtCore.QTimer.singleShot(0, self._preview)
+
+    def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
+        """Start from an as-built part, or from what is selected."""
+        if item is not None:
+            self._source = item.Source
+            settings = settings_of(item)
+            self._faces = settings.faces or ()
+            self.form.take(settings, item.Scan)
+        else:
+            self._pick(selected)
+        if whole:
+            self._faces = ()
+        self.form.set_whole(whole or item is not None and not self._faces)
+        self._show_picked()
+
+    def _pick(self, selected: Chosen) -> None:
+        """Take over the part, the faces and the scan of a selection; what cannot be used is said."""
+        self._hint = ""
+        if selected.scans:
+            self.form.set_scan(selected.scans[-1])
+        try:
+            if selected.refusal:
+                raise InputError(selected.refusal)
+            picked = {standing_for(part): selected.faces[part.Name] for part in selected.parts}
+            if self._item in picked:
+                picked[self._source] = picked.pop(self._item)
+            if len(picked) > 1:
+                raise InputError(tr("Faces of two parts are selected: choose those of one."))
+            for part, faces in picked.items():
+                self._pick_faces(part, tuple(dict.fromkeys(faces)))
+            if selected.others:
+                raise InputError(tr("{name} is neither a face nor a point cloud: pick faces of a part, and a scan."
+                                    ).format(name=selected.others[0]))
+        except InputError as refusal:
+            self._hint = said(str(refusal))
+
+    def _pick_faces(self, part: Any, faces: tuple[str, ...]) -> None:
+        if self._item is not None and part is not self._source:
+            raise InputError(tr("{part} is made from {source}: pick faces of one of these two.").format(
+                part=self._item.Label, source=self._source.Label))
+        if part is not self._source:
+            self._source, self._faces = part, ()
+        if self.form.picks_frozen:
+            self.form.toggle_frozen(faces)
+        elif faces and self._adding:
+            self._faces = tuple(name for name in dict.fromkeys((*self._faces, *faces))
+                                if name not in self._faces or name not in faces)
+        elif faces:
+            self._faces = faces
+
+    def _show_picked(self) -> None:
+        self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
+
+    def addSelection(self, *_: Any) -> None:
+        """Something was picked in the view or in the tree: read the selection once FreeCAD is done with it."""
+        self._adding = bool(QtWidgets.QApplication.keyboardModifiers() & QtCore.Qt.ControlModifier)
+        QtCore.QTimer.singleShot(0, self._selection_changed)
+
+    def _selection_changed(self) -> None:
+        if not self._watching or self.form.busy:
+            return
+        selected = chosen()
+        if not (selected.parts or selected.scans or selected.others or selected.refusal):
+            return
+        self._pick(selected)
+        Gui.Selection.clearSelection()  # what is selected would shine through the preview
+        self._show_picked()
+        self._preview()
+
+    def _job(self) -> Job:
+        """The registration that is set now (InputError where something is missing)."""
+        scan = self.form.scan(self._document)
+        if self._source is None:
+            raise InputError(tr("Pick the part in the 3D view.") if self.form.whole else
+                             tr("Pick faces of the part in the 3D view."))
+        if not self.form.whole and not self._faces:
+            raise InputError(tr("Pick the faces to deform in the 3D view; hold Ctrl for more than one."))
+        if scan is None:
+            raise InputError(tr("The document holds no scan: import one first."))
+        settings = self.form.settings(self._faces)
+        if self._read is None or self._read[0] != (self._source, scan):
+            job = make_job(self._source, scan, settings)
+            self._read = ((self._source, scan), job.source, job.scan)
+        return Job(self._read[1], self._read[2], settings)
+
+    def _preview(self) -> None:
+        """Preview what is set now."""
+        if not self._watching or self._with_document.gone or self.form.busy:
+            return
+        try:
+            job = self._job()
+            if self._wished.preview:
+                self._runner.ask(job)
+            else:
+                self.form.show_figures(None, self._hint)
+        except FfdsError as refusal:
+            self._runner.stop()
+            self._draw_nothing(refusal)
+
+    def _told(self, text: str) -> None:
+        if self._watching:
+            self.form.show_progress(text)
+
+    def _draw_nothing(self, failure: BaseException) -> None:
+        if not isinstance(failure, FfdsError):
+            raise failure
+        if not self._watching:
+            return
+        self._overlay.show([])
+        self._overlay.cover()
+        self.form.show_figures(None, self._hint or said(str(failure)))
+
+    def _draw(self, job: Job, patches: list[Patch]) -> None:
+        if not self._watching:
+            return
+        limit = good_limit(np.concatenate([patch.before for patch in patches]))
+        self._overlay.cover(*self._covered(job))
+        self._drawing.show(job.source.model.shape, patches, job.settings.freeze, limit, self._wished.lattice,
+                           job.source.T_document_part)
+        if job.settings.faces is not None:
+            self.form.show_size(patches[0].size)
+        self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
+
+    def _covered(self, job: Job) -> list[Any]:
+        """What would hide the preview: the scan, the part and, when it is being changed, the as-built part."""
+        return [item for item in (self.form.scan(self._document), self._source, job.source.item, self._item)
+                if item is not None]
+
+    def accept(self) -> bool:
+        """OK: compute in the background, then write the document in one undo step and close."""
+        if not self._watching or self.form.busy:
+            return False
+        self._read = None
+        try:
+            job = self._job()
+        except FfdsError as refusal:
+            running.tell(said(str(refusal)))
+            return False
+        self._runner.stop()
+        self.form.set_busy(True)
+        self._worker = running.Worker(job.run, lambda _: self._finish(job), self._failed, self.form.show_progress)
+        return False
+
+    def _finish(self, job: Job) -> None:
+        self.form.set_busy(False)
+        scan = running.name_of(self.form.scan(self._document))
+        arguments = _arguments(job.settings)
+        source = running.name_of(self._source)
+        item, in_place = self._item, self.form.in_place
+        self._close()
+        with running.telling():
+            if item is not None:
+                line = f"change_as_built({running.name_of(item)}, {arguments}, scan={scan})"
+            else:
+                line = f"{'replace_in_place' if in_place else 'make_as_built'}({source}, {scan}, {arguments})"
+            running.call(self._document, "Deform to scan", line)
+
+    def _failed(self, failure: BaseException) -> None:
+        self._worker = None
+        self.form.set_busy(False)
+        if isinstance(failure, FfdsError):
+            running.tell(said(str(failure)))
+        else:
+            raise failure
+
+    def reject(self) -> bool:
+        """Cancel: drop running work and leave the document as it is."""
+        self._close()
+        return True
+
+    def _close(self) -> None:
+        if self._watching:
+            self._let_go()
+            Gui.Selection.clearSelection()
+            QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
+
+    def _let_go(self, *_: Any) -> None:
+        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
+        if not self._watching:
+            return
+        self._watching = False
+        try:
+            Gui.Selection.removeObserver(self)
+            self._with_document.release()
+            self._stop()
+        finally:
+            self._overlay.remove()
+
+    def _stop(self) -> None:
+        """Drop what is being computed."""
+        self._runner.stop()
+        if self._worker is not None:
+            self._worker.cancel()
+
+    def getStandardButtons(self) -> int:
+        """OK and Cancel."""
+        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
+
+
+def _arguments(settings: Settings) -> str:
+    """The settings as the arguments of a recorded line; defaults are left out."""
+    plain = Settings()
+    shown = [f"faces={list(settings.faces) if settings.faces else None}"]
+    shown += [f"{name}={getattr(settings, name)!r}"
+              for name in ("freeze", "method", "lattice", "source_points", "isometry", "stiffness", "gate")
+              if getattr(settings, name) != getattr(plain, name)]
+    return ", ".join(shown)

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One face and the scan points near it: their deviations from it before and after a displacement. No Qt, no Coin."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...registration.face import RobustSettings
+from ...registration.face_geometry import FaceGeometry
+from ...registration.footpoints import SurfaceCoordinates, surface_coordinates
+from ...registration.splines import SplineSurface
+from ...registration.uv_raster import Raster, make_raster
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+_FAR, _FAR_MEDIANS = 1.0, 8.0
+"""Points farther from the deformed face than this (mm), and than so many times the median, are not its own."""
+_OUTLINE = 129
+"""Points of a drawn trim."""
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """Of scan points from one face, (k,) each: row in the scan, cell of the raster, and mm before and after."""
+
+    index: Index
+    cell: Index
+    before: Array
+    after: Array
+
+    def part(self, which: NDArray[np.bool_]) -> Deviations:
+        """Some of them."""
+        return Deviations(self.index[which], self.cell[which], self.before[which], self.after[which])
+
+    def near(self) -> Deviations:
+        """Those that may be the face's own."""
+        return self.part(np.abs(self.after) < farthest_of(self.after))
+
+
+def farthest_of(deviations: Array) -> float:
+    """Distance in mm at which a point is not the part's own, by the deviations (k,) of all."""
+    return max(_FAR, _FAR_MEDIANS * float(np.median(np.abs(deviations)))) if len(deviations) else _FAR
+
+
+class FaceOnScan:
+    """A face, its raster and the scan points (n, 3) near it."""
+
+    def __init__(self, geometry: FaceGeometry, points: Array) -> None:
+        self.geometry = geometry
+        self.raster: Raster = make_raster(geometry)
+        self.places: SurfaceCoordinates = surface_coordinates(self.raster, points, RobustSettings().reach, 0.0)
+        self.triangles = surface_grid(self.raster)
+
+    def deviations(self, displacement: SplineSurface, every: int = 1) -> Deviations:
+        """Before and after a displacement d(u, v), of every so many points."""
+        places, raster = self.places.part(slice(None, None, every)), self.raster
+        uv = raster.corner + raster.step * np.stack([places.x, places.y], axis=1)
+        cell = places.in_cell[0]
+        moved = displacement(uv) if len(uv) else np.zeros((0, 3))
+        after = places.height - np.einsum("ij,ij->i", moved, raster.normal[cell])
+        return Deviations(places.index, cell, places.height, after)
+
+    def deformed(self, displacement: SplineSurface) -> Array:
+        """The corners of the raster's cells on the deformed face, (n, 3) in mm."""
+        return (self._nominal + displacement.on_grid(*corners(self.raster))).reshape(-1, 3)
+
+    @cached_property
+    def _nominal(self) -> Array:
+        """The same corners on the nominal face."""
+        return self.geometry.surface.on_grid(*corners(self.raster))
+
+    def outline(self, displacement: SplineSurface) -> list[Array]:
+        """The trims on the deformed face, closed polylines, each (k, 3) in mm."""
+        if not self._trims:
+            return []
+        uv, nominal, ends = self._trims
+        return np.split(nominal + displacement(uv), ends)
+
+    @cached_property
+    def _trims(self) -> tuple[Array, Array, Index] | tuple[()]:
+        """The trims in (u, v) and on the nominal face, one after the other and no finer than they need to be for a
+        drawing, and where they end."""
+        drawn = [uv[np.linspace(0, len(uv) - 1, min(len(uv), _OUTLINE)).astype(int)] for uv in self.geometry.trims]
+        if not drawn:
+            return ()
+        uv = np.concatenate(drawn)
+        return uv, self.geometry.surface(uv), np.cumsum([len(trim) for trim in drawn])[:-1]
+
+    def at_corners(self, deviations: Deviations) -> Array:
+        """Mean deviation after at each of them, NaN without data, (n,)."""
+        return _at_corners(self.raster, deviations.cell, deviations.after)
+
+
+def corner_values(raster: Raster, points: Array, deviations: Array) -> Array:
+    """Mean deviation around each corner of the cells, NaN without data; points (k, 3) in mm that lie on the face."""
+    if not len(points):
+        return np.full((raster.shape[0] + 1) * (raster.shape[1] + 1), np.nan)
+    found = surface_coordinates(raster, points, float(np.abs(deviations).max()) + 1.0)
+    return _at_corners(raster, found.in_cell[0], deviations[found.index])
+
+
+def corners(raster: Raster) -> tuple[Array, Array]:
+    """Parameters of the cells' corners, (m + 1,) in u and (n + 1,) in v."""
+    return (raster.corner[0] + raster.step[0] * np.arange(raster.shape[0] + 1),
+            raster.corner[1] + raster.step[1] * np.arange(raster.shape[1] + 1))
+
+
+def surface_grid(raster: Raster) -> Index:
+    """Triangles (k, 3) between the corners of the cells that carry material."""
+    m, n = raster.shape
+    index = np.arange((m + 1) * (n + 1)).reshape(m + 1, n + 1)
+    corner = (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])
+    a, b, c, d = (grid.ravel()[raster.inside] for grid in corner)
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+
+
+def _at_corners(raster: Raster, cell: Index, values: Array) -> Array:
+    """Mean at each corner of the values in the cells around it, or about it where these are empty, NaN where there are
+    none; ((m + 1)·(n + 1),)."""
+    count, total = (np.bincount(cell, weights, len(raster.position)).reshape(raster.shape).astype(float)
+                    for weights in (None, values))
+    near, wide = ([_summed(sums, reach, raster.periodic) for sums in (count, total)] for reach in (1, 2))
+    count, total = (np.where(near[0] > 0, close, far).ravel() for close, far in zip(near, wide, strict=True))
+    return np.divide(total, count, out=np.full(len(count), np.nan), where=count > 0)
+
+
+def _summed(cells: Array, reach: int, periodic: tuple[bool, bool]) -> Array:
+    """Sums over the 2 · reach cells on either axis about each corner, (m, n) to (m + 1, n + 1)."""
+    for axis, closed in enumerate(periodic):
+        width = [(reach, reach) if k == axis else (0, 0) for k in (0, 1)]
+        padded = np.cumsum(np.pad(cells, width, mode="wrap" if closed else "constant"), axis=axis)
+        before = np.insert(np.delete(padded, -1, axis=axis), 0, 0.0, axis=axis)
+        ends = np.arange(cells.shape[axis] + 1)
+        cells = np.take(padded, ends + 2 * reach - 1, axis=axis) - np.take(before, ends, axis=axis)
+    return cells

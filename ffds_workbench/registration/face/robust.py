@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Method ``robust``: a face fitted to all its scan points on a (u, v) raster, stiff first and soft later.
+
+Scan points are expressed once as foot point and height over the nominal face. From then on every step works on the
+raster: the residuals of each cell's points are averaged with Tukey weights, and the control lattice takes the
+displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the
+wider the gate.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...errors import RefusedError
+from ..arrays import Array
+from ..face_geometry import FaceGeometry
+from ..scan_normals import faces_alike, scan_normals
+from ..uv_raster import Raster, make_raster
+from .control_lattice import displacement_lattice
+from .face_result import FaceRegistration
+from .robust_fit import (FacePoints, RasterFit, RobustSettings, automatic_lattice, coarse_lattice, dense_layers,
+                         face_points, main_patches, patches, proven, rigid_start)
+from .scan_coverage import covered_share
+
+_LEAST_POINTS, _LEAST_FITTED = 30, 20
+_RASTER_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
+_MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
+"""Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
+
+
+def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
+                    settings: RobustSettings | None = None, raster: Raster | None = None) -> FaceRegistration:
+    """Deform a face to a scan that may be noisy, incomplete and full of other things.
+
+    Parameters
+    ----------
+    face : the nominal face
+    scan : (n, 3) in mm, finite, in the frame of the model; clutter, other faces and gaps are expected
+    lattice : (N_i, N_j) control points in u and v, or None to choose them from the data
+    settings : gates, stiffness and reach; None for the defaults
+    raster : `make_raster` of the face where it is at hand already; a fine lattice needs a finer one
+
+    Raises
+    ------
+    RefusedError
+        Too little of the scan lies on the face, or the lattice is too fine for it.
+    """
+    settings = settings or RobustSettings()
+    cells = max(_RASTER_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0)))
+    if raster is None or cells > _RASTER_CELLS:
+        raster = make_raster(face, cells)
+    # What lies farther than the face is long cannot be told from its surroundings.
+    settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
+    margin = min(settings.margin, 0.5 * float(raster.depth.max()))
+    points = face_points(raster, scan, settings.reach, margin, settings.sample)
+    _check_points(face, points, settings)
+    layers = dense_layers(raster, points.sample)
+    if np.mean(~layers.thin) > _MANY_WALLS and points.kept is not None and points.count <= _MOST_NORMALS:
+        inner = points.kept[0]
+        points = points.only(faces_alike(raster, inner, scan_normals(scan[inner.index])))
+        _check_points(face, points, settings)
+        layers = dense_layers(raster, points.sample)
+    layers = replace(layers, density=layers.density * max(1.0, points.count / settings.sample))
+    size = lattice or coarse_lattice(raster, layers, settings.stiffness)
+    fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
+    _check_lattice(face, fit, points, lattice is None)
+    state = fit.moved(rigid_start(raster, layers))
+    for stiffness, gate in settings.stiff:
+        state = fit.step(state, layers, layers.noise, stiffness, gate)
+    residual, weights = fit.look(state, layers, gate)
+    label = patches(raster, layers, residual)
+    trusted = main_patches(label, weights)
+    for stiffness, gate in settings.soft:
+        state = fit.step(state, layers.part(trusted), layers.noise, stiffness, gate)
+    residual, weights = fit.look(state, layers, gate)
+    gate = settings.final[-1][1] + layers.noise
+    believed = proven(raster, layers, label, trusted, residual, gate, settings.curvature)
+    ignored = layers.part(~believed).cells() & ~layers.part(believed).cells()
+    weights = weights * believed
+    _check_found(face, int(layers.count[weights > 0].sum()))
+    if lattice is None:
+        size = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
+    if size != fit.size:
+        fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
+    fit.ignored = ignored
+    noise = layers.noise
+    for k, (stiffness, gate) in enumerate(settings.final):
+        state = fit.step(state, points if k == len(settings.final) - 1 else points.sample, noise, stiffness, gate)
+        noise = state.noise
+        if k == 0:
+            fit.allow_even_bending(state)
+    _check_found(face, state.points)
+    coverage = covered_share(raster, state.weights)
+    return FaceRegistration(face.name, fit.field(state), state.points, coverage, state.noise)
+
+
+def _check_points(face: FaceGeometry, points: FacePoints, settings: RobustSettings) -> None:
+    if points.count < _LEAST_POINTS:
+        raise RefusedError(
+            f"The scan does not lie on {face.name}: {points.count} of its points are within {settings.reach:g} mm of "
+            f"the face and at least {_LEAST_POINTS} are needed; check the unit and the alignment of the scan.")
+
+
+def _check_found(face: FaceGeometry, points: int) -> None:
+    if points < _LEAST_FITTED:
+        raise RefusedError(f"The scan points near {face.name} do not form its surface: only {points} of them agree on "
+                           f"one; leave the face out, or check the alignment of the scan.")
+
+
+def _check_lattice(face: FaceGeometry, fit: RasterFit, points: FacePoints, automatic: bool) -> None:
+    if fit.lattice.free <= np.count_nonzero(np.bincount(points.sample.in_cell[0])):
+        return
+    occupied = points.occupied()
+    if fit.lattice.free <= occupied:
+        return
+    if automatic:
+        raise RefusedError(
+            f"The scan shows too little of {face.name}: its {points.count} points lie in {occupied} places, and at "
+            f"least {fit.lattice.free} are needed; leave the face out or scan it from another side.")
+    rows, columns = fit.lattice.unknown.shape
+    raise RefusedError(
+        f"The lattice {rows}x{columns} is too fine for {face.name}: its {fit.lattice.free} control points are not "
+        f"determined by the {occupied} raster cells that hold scan points; choose a smaller lattice.")

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Patches of layers that hang together: the face itself, and islands that must prove that they belong to it.
+
+A patch of another sheet just below the face looks like the face where the face is hidden. It is not joined to the
+visible face by a continuous surface, and it lies off where that surface leads.
+"""
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from ...arrays import Array
+from ...uv_raster import Raster
+from .layers import Layers
+
+Index = NDArray[np.intp]
+
+_LARGEST_SLOPE = 0.2
+_NOISE_FACTOR = 2.0
+_MAIN_PATCH_SHARE = 0.1
+_SPARSE_LAYER = 0.25
+"""Layers with less than this share of the usual number of points join nothing: outliers between two sheets would."""
+_MOST_LAYERS = 4
+
+
+def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
+    """Number of the patch of each layer, (k,): layers of neighbouring blocks are joined where no step lies between.
+
+    Parameters
+    ----------
+    residual : (k,) heights of the layers over a stiff surface through most of them, in mm
+    """
+    block = np.repeat(np.arange(len(layers.first)), np.diff(np.append(layers.first, len(layers.x))))
+    rank = np.arange(len(block)) - layers.first[block]
+    i, j = layers.x.astype(np.intp) // layers.block, layers.y.astype(np.intp) // layers.block
+    rows, columns = (np.array(raster.shape) - 1) // layers.block + 1
+    place = np.full((rows + 2, columns + 2, _MOST_LAYERS), -1, dtype=np.intp)
+    kept = rank < _MOST_LAYERS
+    place[i[kept] + 1, j[kept] + 1, rank[kept]] = np.flatnonzero(kept)
+    if raster.periodic[0]:
+        place[0], place[-1] = place[-2], place[1]
+    if raster.periodic[1]:
+        place[:, 0], place[:, -1] = place[:, -2], place[:, 1]
+    pairs = []
+    for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
+        here = place[1 : rows + 1, 1 : columns + 1]
+        there = place[1 + di : rows + 1 + di, 1 + dj : columns + 1 + dj]
+        a, b = np.broadcast_arrays(here[..., :, None], there[..., None, :])
+        both = (a >= 0) & (b >= 0)
+        pairs.append(np.stack([a[both], b[both]]))
+    a, b = np.concatenate(pairs, axis=1)
+    dx = raster.nearest_turn(layers.x[a] - layers.x[b], 0) * raster.size[0]
+    dy = raster.nearest_turn(layers.y[a] - layers.y[b], 1) * raster.size[1]
+    step = np.hypot(dx, dy)
+    residual = np.nan_to_num(residual, posinf=1e9)
+    dense = layers.count >= _SPARSE_LAYER * np.median(layers.count)
+    allowed = _LARGEST_SLOPE * step + _NOISE_FACTOR * layers.noise
+    joined = dense[a] & dense[b] & (np.abs(residual[a] - residual[b]) <= allowed)
+    graph = coo_matrix((np.ones(np.count_nonzero(joined)), (a[joined], b[joined])), shape=(len(block), len(block)))
+    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+
+
+def main_patches(label: Index, weights: Array) -> NDArray[np.bool_]:
+    """Which layers lie in a patch that carries at least a tenth of the weight of the heaviest one."""
+    total = np.bincount(label, weights)
+    return np.asarray((total >= _MAIN_PATCH_SHARE * total.max())[label])
+
+
+def proven(raster: Raster, layers: Layers, label: Index, trusted: NDArray[np.bool_], residual: Array, gate: float,
+           curvature: float) -> NDArray[np.bool_]:
+    """The trusted layers, and those of patches that lie where the surface fitted to the trusted ones leads.
+
+    Parameters
+    ----------
+    residual : (k,) heights of the layers over that surface in mm
+    gate : how far off in mm a patch may lie on average, in direct reach of the trusted layers
+    curvature : in 1/mm; over a gap of s mm, curvature · s² is added
+    """
+    if trusted.all():
+        return trusted
+    places = np.stack([layers.x * raster.size[0], layers.y * raster.size[1]], axis=1)
+    gap = cKDTree(places[trusted]).query(places)[0]
+    count = np.bincount(label)
+    nearest = np.full(len(count), np.inf)
+    np.minimum.at(nearest, label, gap)
+    off = np.bincount(label, np.minimum(np.abs(residual), 1e6)) / count
+    return np.asarray((off <= gate + curvature * nearest**2)[label] | trusted)

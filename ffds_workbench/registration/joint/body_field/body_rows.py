@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the body tells of its faces: how they slide in themselves, and where those lie that nothing shows.
+
+A scan tells of a face only where it lies along its normal. But a body deforms as one: its displacement is smooth in
+space, and where faces look in many directions, their normal components together tell of the others.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import Array, Index
+from ...motions import apply, best_fit
+from ..assembly import NormalEquations, add_products, gather
+from ..data import Borders, CellHeights
+from ..priors import COMPONENTS, pose_weight
+from ..problem import Problem
+from ..settings import PriorTrust
+from ..surfaces import Jet, normals
+from .kriging import FieldModel, Observations, Pose, condition, most_likely_model
+
+_PATCHES_PER_SIDE = 4
+"""Patches per direction of a span whose heights are averaged: small against what the field changes over."""
+_LARGEST_SYSTEM = 1500
+"""Patches that are taken, at random: a matrix of as many rows is factorised."""
+_LEAST_PATCH_WEIGHT = 0.1
+"""Patches with less than this of the usual weight are left out."""
+_BORDER_STRIDE = 3
+"""One border row of so many: they stand close, and what is wrong of them is wrong of their neighbours too."""
+_POSE_PLACES = 200
+"""Places whose pose stays as the solve has it: turns that nothing shows are not to follow what is left of errors."""
+_STEPS_TO_SETTLE = 2
+"""Steps with all points after which the field is settled."""
+_SHEET_SHARE = 0.2
+"""Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
+at neighbouring spans are nearly the same."""
+_NEGLIGIBLE_SHARE = 0.01
+"""Of the weight of a row, what can be left out."""
+
+
+@dataclass(frozen=True)
+class BodyRows:
+    """Where the body has the middles of spans: Σ B d = displacement, as precisely as it says.
+
+    Attributes
+    ----------
+    model : of the field
+    steps : that led to them
+    spans : (n,)
+    basis : (n, 16) basis functions at the places
+    displacement : (n, 3) in mm
+    precision : (n, 3, 3) in 1/mm²
+    sheet : (n,) whether the span belongs to a sheet
+    """
+
+    model: FieldModel
+    steps: int
+    spans: Index
+    basis: Array
+    displacement: Array
+    precision: Array
+    sheet: NDArray[np.bool_]
+
+
+def body_informs(problem: Problem, trust: PriorTrust) -> bool:
+    """Whether the body tells anything that counts: of sheets that keep all lengths it does not."""
+    return bool((_weight_share(_is_sheet(problem, problem.part.solid_of_face), trust) > _NEGLIGIBLE_SHARE).any())
+
+
+def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHeights, borders: Borders,
+              earlier: BodyRows | None) -> BodyRows:
+    """Rows at the current shape ``jet`` of the cells, with control points (controls, 3) in mm and the scan's ``values``
+    and ``borders`` there. Of an ``earlier`` step the model and the precision are kept, and after a few all of it."""
+    if earlier is not None and earlier.steps == _STEPS_TO_SETTLE:
+        return earlier
+    seen = _observe(problem, control_points, jet, values, borders)
+    cells, shape = problem.cells, problem.cells.inside.shape
+    shown = values.weight.reshape(shape) > 0
+    motion = best_fit(cells.nominal.position[shown], jet.position[shown])
+    rigid = apply(motion, seen.place) - seen.place
+    seen = replace(seen, value=seen.value - np.einsum("nx,nx->n", seen.direction, rigid))
+    model = earlier.model if earlier else most_likely_model(seen)
+    some = np.arange(0, len(seen.value), 1 + len(seen.value) // _POSE_PLACES)
+    pose = Pose.of(seen.place[some], seen.body[some])
+    information = len(problem.scan) / problem.statistics.noise**2
+    field = condition(model, seen, pose, 1 / pose_weight(problem.settings, information))
+    spans = np.flatnonzero(cells.inside.any(axis=1))
+    middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
+    place = cells.nominal.position[spans, middle]
+    body = problem.part.solid_of_face[problem.lattices.face_of_span[spans]]
+    displacement = field.mean(place, body) + apply(motion, place) - place
+    if earlier is not None:
+        return replace(earlier, steps=earlier.steps + 1, displacement=displacement)
+    covariance = field.covariance(place, body) + model.variance * model.noise * np.eye(3)
+    return BodyRows(model, 1, spans, cells.tables[0][middle], displacement, np.linalg.inv(covariance),
+                    _is_sheet(problem, body))
+
+
+def add_body_rows(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,
+                  trust: PriorTrust) -> None:
+    """Add the rows of the body at the current shape; of sheets as far as they are not isometric."""
+    precision = _weight_share(rows.sheet, trust)[:, None, None] * rows.precision
+    products = rows.basis[:, :, None] * rows.basis[:, None, :]
+    for a, b in COMPONENTS:
+        add_products(equations, problem, a, b, precision[:, a, b, None, None] * products, rows.spans)
+    now = np.einsum("nc,ncx->nx", rows.basis, control_points[problem.lattices.controls[rows.spans]])
+    pull = np.einsum("nxy,ny->nx", precision, rows.displacement - now)
+    np.add(equations.right, gather(problem, rows.basis[:, :, None] * pull[:, None, :], rows.spans), out=equations.right)
+
+
+def _is_sheet(problem: Problem, solid: Index) -> NDArray[np.bool_]:
+    """Whether solids (n,) are sheets."""
+    return np.asarray(problem.couplings.pairs.solid_thickness)[solid] > 0
+
+
+def _weight_share(sheet: NDArray[np.bool_], trust: PriorTrust) -> Array:
+    """Of the weight of rows (n,), those of a ``sheet`` or others."""
+    return np.where(sheet, _SHEET_SHARE * (1 - trust.isometry), 1.0)
+
+
+def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellHeights, borders: Borders) -> Observations:
+    """The displacement along the current normals, patch by patch, and across some of the visible borders."""
+    cells, shape = problem.cells, problem.cells.inside.shape
+    weight = values.weight.reshape(shape)
+    patch = (_PATCHES_PER_SIDE * cells.local).astype(int) @ (1, _PATCHES_PER_SIDE)
+    member = (patch[:, None] == np.arange(_PATCHES_PER_SIDE**2)).astype(float)
+    total = weight @ member
+    height = ((weight * values.height.reshape(shape)) @ member) / np.maximum(total, 1e-12)
+    usual = np.median(total[total > 0])
+    span, part = np.nonzero(total > _LEAST_PATCH_WEIGHT * usual)
+    rank = np.random.default_rng(problem.settings.seed).permutation(total.size).reshape(total.shape)[span, part]
+    pick = np.argsort(rank)[:_LARGEST_SYSTEM]
+    span, part = span[pick], part[pick]
+    middle = np.stack([(weight * place) @ member for place in cells.local.T], axis=2)[span, part]
+    away = ((cells.local - (middle / total[span, part, None])[:, None]) ** 2).sum(axis=2)
+    cell = np.where(weight[span] > 0, away, np.inf).argmin(axis=1)
+    nominal = cells.nominal.position[span, cell]
+    normal = normals(jet, cells.outward)[0][span, cell]
+    along = np.einsum("nx,nx->n", normal, jet.position[span, cell] - nominal) + height[span, part]
+    body = problem.part.solid_of_face
+    some = np.arange(0, len(borders.along), _BORDER_STRIDE)
+    edge, out, across = borders.samples.take(some), borders.direction[some], borders.along[some]
+    return Observations(np.concatenate([nominal, edge.nominal[0]]), np.concatenate([normal, out]),
+                        np.concatenate([body[problem.lattices.face_of_span[span]], body[edge.face]]),
+                        np.concatenate([along, across]),
+                        np.concatenate([usual / total[span, part], np.zeros(len(across))]),
+                        np.concatenate([np.zeros(len(along)), 1 / borders.weight[some]]))

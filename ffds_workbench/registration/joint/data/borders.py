@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the scan visibly ends: at a sharp edge between a face that was seen and one that was not.
+
+Data along the normal say nothing of an edge's place within its face. The outermost scan points in the plane of the seen
+face do.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...arrays import Array, Index
+from ..priors import SharedEdgePlaces
+from ..surfaces import FacePlaces, concatenate
+
+_SEARCH_REACH = 4.0
+_LARGEST_OFFSET = 2.0
+"""Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
+_POINTS_LAST = 0.2
+"""Movement in mm of the edges after which points keep their samples, which are farther apart."""
+_BORDERS_LAST = 0.03
+"""Movement in mm of the edges that changes nothing of where their borders are found."""
+_SHARP_COSINE = 0.7
+_LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
+"""The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
+than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
+counts."""
+_DENSITY_BAND = (0.5, 2.0)
+"""Distance inside the outermost points, in mm, between which the density is counted."""
+_LEAST_BAND_POINTS = 12
+_SEEN_BEYOND_SHARE = 0.15
+_LEAST_UNCERTAINTY = 0.05
+"""Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
+_USUAL_LOSS = 0.3
+"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this weighs less."""
+_HUBER_SIGMAS = 2.0
+_DISCARD_HUBERS = 3.0
+_EDGE_NEIGHBOURS = 4
+"""Edge samples on either side whose median tells whether one of them is an outlier."""
+_MOST_POINTS = 250_000
+
+
+@dataclass(frozen=True)
+class Borders:
+    """Rows m·d = along at places on edges.
+
+    Attributes
+    ----------
+    samples : the places, on the seen face
+    direction : (n, 3) m, out of the face and in its plane
+    along : (n,) displacement in mm
+    weight : (n,) 1/mm²
+    shape : (k, 3) the sharp edges when they were looked for
+    """
+
+    samples: FacePlaces
+    direction: Array
+    along: Array
+    weight: Array
+    shape: Array
+
+    def offset(self, control_points: Array) -> Array:
+        """How far the borders lie outside the edges of the current shape: (n,) in mm."""
+        return self.along - np.einsum("nx,nx->n", self.direction, self.samples.displacement(control_points))
+
+
+@dataclass(frozen=True)
+class EdgeSides:
+    """Which way the faces lie at the edge samples.
+
+    Attributes
+    ----------
+    sign : (2, n) m = sign · (t × n) points out of the first and of the second face
+    sharp : (n,) the edge is convex and sharp
+    """
+
+    sign: Array
+    sharp: NDArray[np.bool_]
+
+
+def edge_sides(edges: SharedEdgePlaces) -> EdgeSides:
+    """Sides of the nominal edges, as the faces' loops run."""
+    normal = [side.nominal_normals for side in (edges.first, edges.second)]
+    sign = np.where(edges.left, 1.0, -1.0)
+    convex = np.einsum("nx,nx->n", sign[0][:, None] * np.cross(edges.direction, normal[0]), normal[1]) > 0
+    return EdgeSides(sign, edges.angled & convex & (np.einsum("nx,nx->n", *normal) < _SHARP_COSINE))
+
+
+@dataclass(frozen=True)
+class NearEdges:
+    """Scan points near the sharp edges.
+
+    Attributes
+    ----------
+    points : (n, 3) in mm
+    row : (n,) the nearest edge sample
+    place : (samples, 3) where the sharp edges were when the points were looked for
+    """
+
+    points: Array
+    row: Index
+    place: Array
+
+
+def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array,
+                    known: NearEdges | None) -> NearEdges:
+    """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape; those that are
+    ``known`` while the edges hardly move."""
+    sharp = np.flatnonzero(sides.sharp)
+    place = _sharp_edges(edges, sides, control_points)
+    if known is not None and np.abs(place - known.place).max(initial=0.0) < _POINTS_LAST:
+        return known
+    points = points[:: 1 + len(points) // _MOST_POINTS]
+    if not len(sharp):
+        return NearEdges(points[:0], sharp, place)
+    nearest = cKDTree(place).query(points, distance_upper_bound=_SEARCH_REACH, workers=-1)[1]
+    near = np.flatnonzero(nearest < len(sharp))
+    return NearEdges(points[near], sharp[nearest[near]], place)
+
+
+def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, noise: float,
+                 known: Borders | None) -> Borders:
+    """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
+    edges lie where they were looked for."""
+    shape = _sharp_edges(edges, sides, control_points)
+    if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST:
+        return known
+    points, row = near.points, near.row
+    pairs = (edges.first, edges.second), (edges.second, edges.first)
+    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
+             for k, (seen, other) in enumerate(pairs)]
+    rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
+    samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
+    direction, offset, weight = (np.concatenate([side[k][r] for side, r in zip(found, rows, strict=True)])
+                                 for k in range(3))
+    along = offset + np.einsum("nx,nx->n", direction, samples.displacement(control_points))
+    return Borders(samples, direction, along, weight, shape)
+
+
+def _sharp_edges(edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array) -> Array:
+    """Current places of the samples on sharp edges: (n, 3)."""
+    sharp = edges.first.take(np.flatnonzero(sides.sharp))
+    return sharp.nominal[0] + sharp.displacement(control_points)
+
+
+def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlaces, other: FacePlaces, sign: Array,
+              sharp: NDArray[np.bool_], control_points: Array, noise: float) -> tuple[Array, Array, Array]:
+    """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
+    count = len(edges.edge)
+    place = seen.nominal[0] + seen.displacement(control_points)
+    normal, out = _across(edges, seen, sign[0], control_points)
+    beyond, away = _across(edges, other, sign[1], control_points)
+    nothing = out, np.zeros(count), np.zeros(count)
+    if not sharp.any() or not len(points):
+        return nothing
+    local = points - place[row]
+    across = np.einsum("nx,nx->n", local, out[row])
+    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * noise
+    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise) & (
+        np.einsum("nx,nx->n", local, away[row]) < -_DENSITY_BAND[0])
+    unlike = ~on_seen & (on_other | (across > -_DENSITY_BAND[0]))
+    outermost = _from_top(row[on_seen], across[on_seen], count)
+    inside = outermost[-1, row] - across
+    population, strange, samples = (
+        _running(np.nansum, edges.edge, values) for values in
+        (_count(row[on_seen & (inside > _DENSITY_BAND[0]) & (inside < _DENSITY_BAND[1])], count),
+         _count(row[unlike], count), np.ones(count)))
+    per_mm = np.maximum(population / samples / (_DENSITY_BAND[1] - _DENSITY_BAND[0]), 1e-9)
+    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * per_mm), 1, _LARGEST_RANK).astype(int)
+    offset = outermost[rank - 1, np.arange(count)] + rank / per_mm
+    good = (sharp & (population >= _LEAST_BAND_POINTS) & (strange < _SEEN_BEYOND_SHARE * population)
+            & (np.abs(offset) < _LARGEST_OFFSET))
+    if not good.any():
+        return nothing
+    sigma = np.hypot(_LEAST_UNCERTAINTY, np.sqrt(rank) / per_mm)
+    around = _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))
+    off = np.abs(offset - around) / (_HUBER_SIGMAS * sigma)
+    good &= off < _DISCARD_HUBERS
+    missing = 1 + (np.minimum(around, 0.0) / _USUAL_LOSS) ** 2
+    return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * missing * sigma**2), 0.0)
+
+
+def _across(edges: SharedEdgePlaces, side: FacePlaces, sign: Array, control_points: Array) -> tuple[Array, Array]:
+    """Current normal of a face along its edges, and the direction in the face out of it."""
+    normal = side.normals(control_points)
+    out = sign[:, None] * np.cross(edges.along(side.nominal[0] + side.displacement(control_points)), normal)
+    return normal, out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12)
+
+
+def _from_top(row: Index, value: Array, count: int) -> Array:
+    """The largest values of every row in falling order, (ranks, rows); NaN where there are fewer."""
+    order = np.lexsort((value, row))
+    end = np.searchsorted(row[order], np.arange(count), side="right")
+    start = np.searchsorted(row[order], np.arange(count), side="left")
+    enough = end - start >= _LARGEST_RANK
+    result = np.full((_LARGEST_RANK, count), np.nan)
+    for rank in range(_LARGEST_RANK):
+        result[rank, enough] = value[order[end[enough] - 1 - rank]]
+    return result
+
+
+def _count(row: Index, count: int) -> Array:
+    return np.bincount(row, minlength=count).astype(float)
+
+
+def _running(gather: Callable[..., Array], edge: Index, values: Array) -> Array:
+    """``gather``, which passes over NaN, of the values around every sample on the same edge: (n,)."""
+    shifts = range(-_EDGE_NEIGHBOURS, _EDGE_NEIGHBOURS + 1)
+    window = np.stack([np.where(np.roll(edge, k) == edge, np.roll(values, k), np.nan) for k in shifts])
+    known = np.isfinite(window).any(axis=0)
+    result = np.full(len(edge), np.nan)
+    result[known] = gather(window[:, known], axis=0)
+    return result

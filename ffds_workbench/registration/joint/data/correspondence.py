@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which scan point belongs to which cell: nearest current cell centre, one Newton step in its frame, gate and trim.
+
+The tree is built over the cells of the current shape, not over the scan, so that its size does not grow with the scan.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...arrays import Array, Index
+from ..surfaces import Jet, Lattices, SpanGrid, normals
+
+_WITHIN_CELL = 0.75
+_NEGLIGIBLE_SHARE = 0.002
+"""Share of the points up to which those on the wrong side are left out rather than matched again."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """What a foot point needs of the active cells, one row per cell.
+
+    Attributes
+    ----------
+    cell : (m,) flat number (span · k + cell in the span)
+    position, normal : (m, 3)
+    step : (m, 2, 3) rows that turn an offset in mm into a step in (u, v)
+    form : (m, 3) second fundamental form, uu, uv and vv
+    size : (m, 2) of the cell in (u, v)
+    allowed : (m,) whether the cell is far enough from the border of its face to hold points
+    """
+
+    cell: Index
+    position: Array
+    normal: Array
+    step: Array
+    form: Array
+    size: Array
+    allowed: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Correspondence:
+    """Scan points with their cells.
+
+    Attributes
+    ----------
+    point : (n,) index of the scan point
+    cell : (n,) flat number of its cell
+    height : (n,) signed distance from the surface along its outward normal, in mm
+    nearest : (points,) row of the nearest frame for every scan point asked for, used again while the shape hardly moves
+    """
+
+    point: Index
+    cell: Index
+    height: Array
+    nearest: Index
+
+
+def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, distance: Array) -> Frames:
+    """Frames of all cells within the trims.
+
+    ``distance`` (spans, k) is that from the border in mm, negative outside; cells nearer than ``margin`` (spans,) to it
+    attract points but hold none.
+    """
+    per_span = int(np.sqrt(cells.inside.shape[1]))
+    span, place = np.nonzero(distance > 0)
+    normal = normals(jet, cells.outward)[0][span, place]
+    tangents, seconds = jet.tangents[span, place], jet.seconds[span, place]
+    e, f, g = (np.einsum("nx,nx->n", tangents[:, i], tangents[:, j]) for i, j in ((0, 0), (0, 1), (1, 1)))
+    det = np.maximum(e * g - f * f, 1e-12)
+    step = np.stack([g[:, None] * tangents[:, 0] - f[:, None] * tangents[:, 1],
+                     e[:, None] * tangents[:, 1] - f[:, None] * tangents[:, 0]], axis=1) / det[:, None, None]
+    return Frames(span * cells.inside.shape[1] + place, jet.position[span, place], normal, step,
+                  np.einsum("npx,nx->np", seconds, normal), lattices.step[span] / per_span,
+                  distance[span, place] > margin[span])
+
+
+def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None,
+               facing: Array | None = None) -> Correspondence:
+    """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since.
+
+    ``facing`` (n, 3) are outward normals of the points, zero where unknown: a point keeps to cells of its own side.
+    """
+    if nearest is None:
+        tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
+        nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
+        if facing is not None:
+            nearest = _rematch_wrong_side(points, facing, frames, nearest, gate)
+    point = np.flatnonzero(nearest < len(frames.position))
+    row = nearest[point]
+    offset = points[point] - frames.position[row]
+    step = np.einsum("nax,nx->na", frames.step[row], offset)
+    bend = frames.form[row]
+    sag = 0.5 * (bend[:, 0] * step[:, 0] ** 2 + 2 * bend[:, 1] * step[:, 0] * step[:, 1] + bend[:, 2] * step[:, 1] ** 2)
+    height = np.einsum("nx,nx->n", frames.normal[row], offset) - sag
+    good = (frames.allowed[row] & (np.abs(height) < gate)
+            & (np.abs(step) < _WITHIN_CELL * frames.size[row]).all(axis=1))
+    return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
+
+
+def _rematch_wrong_side(points: Array, facing: Array, frames: Frames, nearest: Index, gate: float) -> Index:
+    """``nearest`` with the points that face away from their cell matched again, by place and normal together."""
+    none = len(frames.position)
+    cosine = np.einsum("nx,nx->n", facing, np.append(frames.normal, np.zeros((1, 3)), axis=0)[nearest])
+    wrong = np.flatnonzero(cosine < 0)
+    result = nearest.copy()
+    result[wrong] = none
+    if len(wrong) > _NEGLIGIBLE_SHARE * len(points):
+        # Opposite sides are 4 gates apart, farther than anything is looked for.
+        tree = cKDTree(np.hstack([frames.position, 2 * gate * frames.normal]), balanced_tree=False, compact_nodes=False)
+        result[wrong] = tree.query(np.hstack([points[wrong], 2 * gate * facing[wrong]]),
+                                   distance_upper_bound=2 * gate, workers=-1)[1]
+    return result
+
+
+def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:
+    """How far from the border a face holds points: ``most`` mm, or half of its half width if that is less: (spans,)."""
+    widest = np.zeros(len(lattices.faces))
+    np.maximum.at(widest, lattices.face_of_span, distance.max(axis=1))
+    return np.minimum(most, 0.5 * widest)[lattices.face_of_span]

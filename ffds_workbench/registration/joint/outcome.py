@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Turns the last state of the joint solve into its result, or refuses it."""
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from ...errors import RefusedError
+from ..arrays import Array, Index
+from ..motions import apply, best_fit
+from .joint_result import JointRegistration, SolidMotion
+from .prior_trust import is_isometric, observed_strain
+from .problem import Problem
+from .state import State
+from .surfaces import normals
+from .uncertainty import assess
+
+_NOT_CONVERGED = 0.5
+_LEAST_USED_POINTS = 50
+_LEAST_USED_SHARE = 0.02
+_COLLAPSED_AREA = 0.1
+
+
+def refuse_unsound(problem: Problem, state: State) -> None:
+    """Raise RefusedError where the result cannot be honest."""
+    inside = problem.cells.inside
+    position = problem.cells.nominal.position[inside]
+    jet = problem.cells.displaced(problem.lattices, state.control_points, 3)
+    moved = float(np.linalg.norm(jet.position[inside] - position, axis=1).max())
+    used = int(state.values.count.sum())
+    if used < _LEAST_USED_POINTS or used < _LEAST_USED_SHARE * len(problem.scan):
+        raise RefusedError(f"Only {used} of {len(problem.scan)} scan points lie near the part: check the unit of the "
+                           "scan and align it first.")
+    of_face = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
+    free = int(np.delete(of_face, list(problem.part.frozen)).sum())
+    if free < _LEAST_USED_POINTS:
+        raise RefusedError(f"Only {free} scan points lie near faces that may move: freeze fewer faces, or scan the "
+                           "free ones.")
+    if not np.isfinite(moved) or moved > problem.size:
+        raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({problem.size:.0f} mm): "
+                           "align the scan first.")
+    if state.last_step > _NOT_CONVERGED:
+        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
+                           "does not hold the part; align it first, or freeze faces.")
+    normal, area = normals(jet, problem.cells.outward)
+    nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
+    expected = _rotated_normals(problem, jet.position, nominal_normal)
+    turned = np.einsum("skx,skx->sk", normal, expected)
+    folded = inside & ((turned <= 0) | (area < _COLLAPSED_AREA * nominal_area))
+    if folded.any():
+        face = problem.part.faces[problem.lattices.face_of_span[np.flatnonzero(folded.any(axis=1))[0]]].name
+        raise RefusedError(f"{face} would fold over: the scan does not determine it; freeze it or scan it better.")
+
+
+def _rotated_normals(problem: Problem, position: Array, normal: Array) -> Array:
+    """Nominal normals (spans, k, 3) turned with the rigid motion of their solid."""
+    result = normal.copy()
+    for solid in problem.part.solids:
+        spans = np.flatnonzero(np.isin(problem.lattices.face_of_span, solid))
+        result[spans] = normal[spans] @ _solid_motion(problem, position, solid).T_asbuilt_nominal[:3, :3].T
+    return result
+
+
+def _solid_motion(problem: Problem, position: Array, solid: Index) -> SolidMotion:
+    """Best rigid motion of a solid onto its as-built cells, weighted by area."""
+    spans = np.flatnonzero(np.isin(problem.lattices.face_of_span, solid))
+    weight = problem.area[spans].ravel()
+    a, b = (x[spans].reshape(-1, 3) for x in (problem.cells.nominal.position, position))
+    motion = best_fit(a, b, weight)
+    left = ((b - apply(motion, a)) ** 2).sum(axis=1)
+    return SolidMotion(motion, float(np.sqrt(np.average(left, weights=weight))))
+
+
+def summarise(problem: Problem, state: State) -> JointRegistration:
+    """The result; its bands and flags are found when they are asked for."""
+    position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
+    displacements = tuple(problem.lattices.spline(index, state.control_points)
+                          for index in range(len(problem.part.faces)))
+    kept = replace(state.cache, factor=None, nearest=None, near_edges=None)
+    return JointRegistration(
+        displacements, partial(assess, problem, replace(state, cache=kept), displacements),
+        solids=tuple(_solid_motion(problem, position, solid) for solid in problem.part.solids),
+        thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
+        iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),
+        unsure=state.unsure)
+
+
+def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
+    pairs = problem.couplings.pairs
+    measured = problem.couplings.measured_thickness(state.control_points)
+    result = []
+    for solid, nominal in zip(problem.part.solids, pairs.solid_thickness, strict=True):
+        own = np.isin(pairs.front.face, solid)
+        result.append(float(np.average(measured[own], weights=pairs.area[own])) if nominal and own.any() else None)
+    return tuple(result)

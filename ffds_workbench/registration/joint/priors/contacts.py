@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where solids of an assembly touch: what nothing observes of one (a pipe about its axis) follows its neighbour."""
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_matrix, vstack
+from scipy.spatial import cKDTree
+
+from ..part import JointPart
+from ..surfaces import Lattices, SpanGrid, normals, places_on_faces
+from .sheet_pairs import parameters
+
+_CONTACT_GAP = 0.05
+_WITHIN_CELL = 0.75
+
+
+def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_matrix:
+    """Rows d_a − d_b, equal weights adding up to one per pair of solids: (contacts, controls).
+
+    Contacts are places along the edges of one solid that lie within 0.05 mm of a face of another one.
+    """
+    owner = part.solid_of_face
+    edges = [edge for edge in part.edges if edge.faces and not edge.degenerate]
+    rows = [csr_matrix((0, lattices.count))]
+    if len(part.solids) < 2 or not edges:
+        return rows[0]
+    point = np.concatenate([edge.points for edge in edges])
+    face = np.concatenate([np.full(len(edge.points), edge.faces[0]) for edge in edges])
+    uv = np.concatenate([edge.uv[0] for edge in edges])
+    normal = normals(cells.nominal, cells.outward)[0]
+    for number in range(len(part.solids)):
+        span, place = np.nonzero(cells.inside & (owner[lattices.face_of_span] == number)[:, None])
+        other = np.flatnonzero(owner[face] != number)
+        near = cKDTree(cells.nominal.position[span, place]).query(point[other])[1]
+        span, place = span[near], place[near]
+        offset = point[other] - cells.nominal.position[span, place]
+        tangents = cells.nominal.tangents[span, place]
+        metric = np.einsum("nax,nbx->nab", tangents, tangents)
+        step = np.linalg.solve(metric, np.einsum("nax,nx->na", tangents, offset)[:, :, None])[:, :, 0]
+        size = lattices.step[span] / np.sqrt(cells.inside.shape[1])
+        touching = ((np.abs(np.einsum("nx,nx->n", offset, normal[span, place])) < _CONTACT_GAP)
+                    & (np.abs(step) < _WITHIN_CELL * size).all(axis=1))
+        there = parameters(lattices, cells, span, place) + step
+        for neighbour in np.unique(owner[face[other[touching]]]):
+            which = np.flatnonzero(touching & (owner[face[other]] == neighbour))
+            here = places_on_faces(part.faces, lattices, face[other[which]], uv[other[which]])
+            opposite = places_on_faces(part.faces, lattices, lattices.face_of_span[span[which]], there[which])
+            rows.append((here.matrix(lattices.count) - opposite.matrix(lattices.count)) / np.sqrt(len(which)))
+    return vstack(rows).tocsr()

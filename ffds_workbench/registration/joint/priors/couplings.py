@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Rows that tie control points of different faces: shared edges, poles, thickness, edge angles, frozen faces, pose.
+
+All of them are linear in the displacement with constant coefficients; where a rotation enters, it is the current one,
+on the right-hand side.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import bsr_matrix, csr_matrix, diags, vstack
+
+from ...arrays import Array, Index
+from ..part import JointPart
+from ..settings import JointSettings
+from ..surfaces import FacePlaces, Lattices, places_on_faces
+from .sheet_pairs import SheetPairs
+
+_FROZEN_WEIGHT = 1e9
+_POSE_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
+_METRIC_RIDGE = 1e-9
+_SMOOTH_ANGLE = 0.2
+"""Angle in rad up to which faces count as one smooth surface, which stays smooth however it deforms."""
+_POLE = 0.01
+"""Share of the largest |S_u × S_v| along an edge below which it is that of a pole, where a normal turns anyhow with the
+least displacement. Theory: it falls to zero there in proportion to the distance; from 1e-6 to 0.1 nothing changes."""
+
+
+@dataclass(frozen=True)
+class SharedEdgePlaces:
+    """n places along all edges that two faces share, edge by edge.
+
+    Attributes
+    ----------
+    first, second : the places on one face and on the other
+    edge : (n,) number of the edge
+    length : (n,) of the edge in mm that a place stands for
+    direction : (n, 3) unit direction of the edge
+    left : (2, n) whether the first and the second face lie left of it, seen from outside
+    angled : (n,) whether both faces have a normal there, and so an angle
+    """
+
+    first: FacePlaces
+    second: FacePlaces
+    edge: Index
+    length: Array
+    direction: Array
+    left: NDArray[np.bool_]
+    angled: NDArray[np.bool_]
+
+    def along(self, place: Array) -> Array:
+        """Unit directions of the edges through places (n, 3) on them."""
+        return directions(place, self.edge)
+
+    def take(self, which: NDArray[np.bool_]) -> SharedEdgePlaces:
+        return SharedEdgePlaces(self.first.take(which), self.second.take(which), self.edge[which], self.length[which],
+                                self.direction[which], self.left[:, which], self.angled[which])
+
+
+@dataclass(frozen=True)
+class Couplings:
+    """Constant rows and what is needed for their right-hand sides.
+
+    Attributes
+    ----------
+    scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
+    shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
+    pairs, edges : the places that are coupled
+    hinges : the places on edges where there is an angle, the samples of what follows
+    pair_normal : (pairs, 3) nominal normal of the sheets
+    angle : (samples,) nominal angle of the edges in rad
+    thickness_rows : (pairs, controls) d_back − d_front
+    thickness_weight : (pairs,) 1/mm²
+    smooth, dihedral : (3 controls, 3 controls) normal matrices of the angles of smooth edges and of all others
+    dihedral_rows : (samples, 3 controls) change of the angle between the faces
+    dihedral_weight : (samples,) 1/rad²
+    sharp : (samples,) whether the faces meet at an angle
+    """
+
+    scalar: csr_matrix
+    shear: csr_matrix
+    pairs: SheetPairs
+    edges: SharedEdgePlaces
+    hinges: SharedEdgePlaces
+    pair_normal: Array
+    angle: Array
+    thickness_rows: csr_matrix
+    thickness_weight: Array
+    smooth: bsr_matrix
+    dihedral: bsr_matrix
+    dihedral_rows: bsr_matrix
+    dihedral_weight: Array
+    sharp: NDArray[np.bool_]
+
+    def thickness_load(self, control_points: Array, thickness: float, shear: float, normal: Array) -> Array:
+        """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3).
+
+        ``thickness`` and ``shear`` weigh the parts along ``normal``, (pairs, 3), and across it.
+        """
+        across, along = self.thickness_misfit(control_points, normal)
+        misfit = thickness * across[:, None] * normal + shear * along
+        return -(self.thickness_rows.T @ (self.thickness_weight[:, None] * misfit))
+
+    def thickness_misfit(self, control_points: Array, normal: Array) -> tuple[Array, Array]:
+        """d_back − d_front + t (n − n₀): along ``normal`` (pairs, 3), (pairs,), and what is left across it, (pairs, 3).
+
+        Along the current normal it is the change of the distance between the skins, wherever they slide to.
+        """
+        if not len(self.pairs.thickness):
+            return np.zeros(0), np.zeros((0, 3))
+        turned = self.sheet_normals(control_points) - self.pair_normal
+        misfit = self.thickness_rows @ control_points + self.pairs.thickness[:, None] * turned
+        across = np.einsum("nx,nx->n", misfit, normal)
+        return across, misfit - across[:, None] * normal
+
+    def thickness_matrix(self, normal: Array) -> bsr_matrix:
+        """Normal matrix of d_back − d_front along ``normal``, (pairs, 3): (3 controls, 3 controls)."""
+        return _normal_matrix(_along(self.thickness_rows, normal), self.thickness_weight)
+
+    def sheet_normals(self, control_points: Array) -> Array:
+        """Current normals of the sheets at the pairs, from both skins: (pairs, 3)."""
+        return _sheet_normals(self.pairs, control_points)
+
+    def dihedral_load(self, control_points: Array, trust: float) -> Array:
+        """Gradient that brings every edge back to its nominal angle, sharp ones as far as trusted: (controls, 3)."""
+        weight = np.where(self.sharp, trust, 1.0) * self.dihedral_weight
+        return -(self.dihedral_rows.T @ (weight * self.angle_change(control_points))).reshape(-1, 3)
+
+    def angle_change(self, control_points: Array) -> Array:
+        """Change of the angles of the edges from the nominal ones, (samples,) in rad."""
+        change = _angle(self.hinges, control_points) - self.angle
+        return np.mod(change + np.pi, 2 * np.pi) - np.pi
+
+    def measured_thickness(self, control_points: Array) -> Array:
+        """Current thickness at the pairs in mm."""
+        normal = _sheet_normals(self.pairs, control_points)
+        gap = (self.pairs.front.nominal[0] + self.pairs.front.displacement(control_points)
+               - self.pairs.back.nominal[0] - self.pairs.back.displacement(control_points))
+        return np.einsum("nx,nx->n", gap, normal)
+
+
+def directions(place: Array, edge: Index) -> Array:
+    """Unit directions through places (n, 3) one after the other along edges (n,), by central differences: (n, 3)."""
+    after, before = np.roll(place, -1, axis=0), np.roll(place, 1, axis=0)
+    last, first = np.roll(edge, -1) != edge, np.roll(edge, 1) != edge
+    step = np.where(last[:, None], place, after) - np.where(first[:, None], place, before)
+    return np.asarray(step / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12))
+
+
+def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix,
+                   settings: JointSettings, information: float) -> Couplings:
+    """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs, ``contacts`` the rows of
+    `contact_rows`."""
+    count = lattices.count
+    edges = _edge_samples(part, lattices)
+    rows = vstack([edges.first.matrix(count) - edges.second.matrix(count), _pole_rows(part, lattices)]).tocsr()
+    thickness_rows = pairs.back.matrix(count) - pairs.front.matrix(count)
+    # One pair is one independent statement per square of the thickness; closer ones share it.
+    thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
+                        / np.maximum(settings.thickness_sigma, pairs.give) ** 2)
+    hinges = edges.take(edges.angled)
+    dihedral_rows = _dihedral_rows(hinges, lattices)
+    dihedral_weight = hinges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
+    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
+              + diags(_anchor(part, lattices, settings, information)))
+    shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
+    still = np.zeros((count, 3))
+    normal = _sheet_normals(pairs, still)
+    angle = _angle(hinges, still)
+    sharp = np.abs(angle) > _SMOOTH_ANGLE
+    smooth, dihedral = (_normal_matrix(dihedral_rows.tocsr()[which].tobsr((1, 3)), dihedral_weight[which])
+                        for which in (~sharp, sharp))
+    return Couplings(scalar.tocsr(), shear, pairs, edges, hinges, normal, angle, thickness_rows, thickness_weight,
+                     smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
+
+
+def pose_weight(settings: JointSettings, information: float) -> float:
+    """What is known of the pose of a solid before it is seen, in 1/mm²."""
+    return max(settings.pose_sigma**-2, _POSE_SHARE * information)
+
+
+def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
+    """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs.
+
+    The prior is also worth a small share of the scan, which no observed motion feels: a motion that nothing observes (a
+    body of revolution about its axis) must not follow what is left of errors elsewhere.
+    """
+    weight = np.zeros(lattices.count)
+    prior = pose_weight(settings, information)
+    for solid in part.solids:
+        own = np.isin(lattices.face_of_control, solid)
+        weight[own] = prior / max(own.sum(), 1)
+    weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN_WEIGHT
+    return weight
+
+
+def _sheet_normals(pairs: SheetPairs, control_points: Array) -> Array:
+    """Normal of a sheet at the pairs, from both skins: (pairs, 3)."""
+    mean = pairs.front.normals(control_points) - pairs.back.normals(control_points)
+    return mean / np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-12)
+
+
+def _along(rows: csr_matrix, direction: Array) -> bsr_matrix:
+    """Rows (n, controls) that hold for x, y and z, taken along directions (n, 3): (n, 3 controls)."""
+    row = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
+    values = rows.data[:, None] * direction[row]
+    return bsr_matrix((values[:, None], rows.indices, rows.indptr), shape=(rows.shape[0], 3 * rows.shape[1]))
+
+
+def _normal_matrix(rows: bsr_matrix, weight: Array) -> bsr_matrix:
+    """Σ weight rowᵀ row in 3 × 3 blocks, of rows (n, 3 controls) in blocks of three."""
+    weighted = rows.data * np.repeat(weight, np.diff(rows.indptr))[:, None, None]
+    return rows.T @ bsr_matrix((weighted, rows.indices, rows.indptr), shape=rows.shape)
+
+
+def _edge_samples(part: JointPart, lattices: Lattices) -> SharedEdgePlaces:
+    face: tuple[list[Index], list[Index]] = ([], [])
+    uv: tuple[list[Array], list[Array]] = ([], [])
+    edge, length, direction, left = [], [], [], []
+    for number, shared in enumerate(part.edges):
+        if shared.degenerate or len(shared.faces) < 2:
+            continue
+        for other in range(1, len(shared.faces)):
+            for side, k in enumerate((0, other)):
+                face[side].append(np.full(len(shared.points), shared.faces[k]))
+                uv[side].append(shared.uv[k])
+            along = np.gradient(shared.points, axis=0)
+            step = np.linalg.norm(along, axis=1)
+            edge.append(np.full(len(step), number))
+            length.append(step)
+            direction.append(along / np.maximum(step, 1e-12)[:, None])
+            left.append(np.repeat([[shared.left[0]], [shared.left[other]]], len(step), axis=1))
+    none = [np.zeros((0, 2))]
+    both = places_on_faces(part.faces, lattices, np.concatenate([np.zeros(0, dtype=np.intp), *face[0], *face[1]]),
+                           np.concatenate(none + uv[0] + uv[1]))
+    first, second = (both.take(half) for half in np.arange(len(both)).reshape(2, -1))
+    edges = np.concatenate([np.zeros(0, dtype=np.intp), *edge])
+    return SharedEdgePlaces(first, second, edges, np.concatenate([np.zeros(0), *length]),
+                            np.concatenate([np.zeros((0, 3)), *direction]),
+                            np.concatenate([np.zeros((2, 0), dtype=bool), *left], axis=1),
+                            _has_normal(first, edges) & _has_normal(second, edges))
+
+
+def _has_normal(side: FacePlaces, edge: Index) -> NDArray[np.bool_]:
+    """Whether a face has a normal at places on edges: at the pole of a sphere, say, S_u × S_v vanishes: (n,)."""
+    area = np.linalg.norm(np.cross(side.nominal[1], side.nominal[2]), axis=1)
+    largest = np.zeros(edge.max(initial=-1) + 1)
+    np.maximum.at(largest, edge, area)
+    return np.asarray(area > _POLE * largest[edge])
+
+
+def _pole_rows(part: JointPart, lattices: Lattices) -> csr_matrix:
+    """d is the same all along a degenerate edge."""
+    blocks = [csr_matrix((0, lattices.count))]
+    for shared in part.edges:
+        if shared.degenerate:
+            for face, uv in zip(shared.faces, shared.uv, strict=True):
+                row = places_on_faces(part.faces, lattices, np.full(len(uv), face), uv).matrix(lattices.count)
+                blocks.append(row[1:] - row[:-1])
+    return vstack(blocks).tocsr()
+
+
+def _angle(edges: SharedEdgePlaces, control_points: Array) -> Array:
+    """Signed angle between the outward normals about the edge's direction: (samples,)."""
+    first, second = edges.first.normals(control_points), edges.second.normals(control_points)
+    sine = np.einsum("nx,nx->n", np.cross(first, second), edges.direction)
+    return np.arctan2(sine, np.einsum("nx,nx->n", first, second))
+
+
+def _dihedral_rows(edges: SharedEdgePlaces, lattices: Lattices) -> bsr_matrix:
+    """Change of `_angle` by the control points, to first order about the nominal shape: (samples, 3 controls).
+
+    A face turns about the edge's direction t by n·∂d/∂m, with m = t × n the direction in the face across the edge.
+    """
+    sides = []
+    for side in (edges.first, edges.second):
+        normal = side.normals(np.zeros((lattices.count, 3)))
+        across = np.cross(edges.direction, normal)
+        tangents = side.tangents(np.zeros((lattices.count, 3)))
+        metric = np.einsum("anx,bnx->nab", tangents, tangents)
+        metric += _METRIC_RIDGE * np.trace(metric, axis1=1, axis2=2)[:, None, None] * np.eye(2)
+        slope = np.linalg.solve(metric, np.einsum("anx,nx->na", tangents, across)[:, :, None])[:, :, 0]
+        derivative = np.einsum("na,anc->nc", slope, side.weights[1:])
+        values = derivative[:, :, None] * normal[:, None, :]
+        start = np.arange(len(side) + 1) * 16
+        sides.append(bsr_matrix((values.reshape(-1, 1, 3), side.controls.ravel(), start),
+                                shape=(len(side), 3 * lattices.count)))
+    return sides[0] - sides[1]

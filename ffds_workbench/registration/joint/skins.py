@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which side of a thin part a scan point shows: a sheet that moved by its own thickness lies where its far side was.
+
+Neighbouring scan points show the same side, so one sign is wanted per connected piece of the scan; the piece as a whole
+tells it, since no part of a sheet moves without its neighbours. Normals that the scan brings tell it as well. Where
+nothing does, both sides are tried, and what the scan shows of the walls between the skins tells.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from ...errors import RefusedError
+from ..arrays import Array, Index
+from ..scan_sketch import Sketch, sketch_of
+from .data import correspond, make_frames
+from .problem import Problem
+from .state import State
+from .surfaces import normals
+from .uncertainty import prior_cost
+
+_SKETCH_POINTS = 2500
+_TOO_THICK = 3.0
+"""Sheets thicker than this many times the expected displacement are not taken for their far side."""
+_LEAST_THICKNESS_IN_NOISE = 8.0
+"""Noise above the thickness over this hides which side is which."""
+_CLOSER = 0.85
+"""A piece has a side where its points lie closer to the part by this factor than with the other side."""
+_LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
+"""Likewise for the count of points that find nothing on the part, each raised by that share of all."""
+_LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
+_DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
+"""A piece with this share of the sketch and less difference than this factor between its sides is tried both ways."""
+_COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
+"""A fit that costs less than the other one by this factor is right; a point that it leaves out costs what it would
+three standard deviations away."""
+_WALL_POINTS, _WALL_RATIO = 50, 3
+"""The skin is seen whose fit has so many more scan points than this many times the other's on the walls beside it, …"""
+_MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
+"""… or moved less by the first factor. Above it the nearer one is taken with bands as wide as the sheet is thick, up to
+the second one. Where the scan's normals tell the one that moved more, it is taken down to the first factor, with bands
+as wide from the second one on."""
+_AGREEMENT = 0.5
+"""Mean of the signs within a smooth piece from which they are trusted."""
+_MUCH_CLOSER = 0.5
+"""A piece that lies closer to the part by this factor than with the other side tells it even against its normals."""
+_NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
+"""Mean cosine within a smooth piece between the scan's normals and the piece's own from which the scan's are trusted;
+the share of the scan on such pieces without which none are; and the one on which the points may contradict them before
+both are tried."""
+_NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
+"""Neighbours that are tried, cosine of their normals, and sine of the step over their planes on a smooth surface."""
+_NORMAL_REACH_IN_SPACINGS = 3.0
+"""A scan point takes the normal of a point of the sketch within this many mean spacings."""
+
+
+def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:
+    """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
+
+    ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
+    nearer side first, or, if the scan's normals tell the side, theirs; None where no sheet is so thin that its sides
+    could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
+    """
+    sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
+    noise = problem.statistics.noise
+    if not sheets or min(sheets) > _TOO_THICK * reach or noise > min(sheets) / _LEAST_THICKNESS_IN_NOISE:
+        return [None], False
+    inside = problem.cells.inside
+    place = problem.cells.nominal.position[inside]
+    normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
+    near = problem.distance_to_nominal < reach
+    if near.sum() < _LEAST_NEAR_POINTS:
+        return [None], False
+    generator = np.random.default_rng(problem.settings.seed)
+    sketch = sketch_of(problem.sample[near], generator, _SKETCH_POINTS, finer=1)
+    distance, nearest = cKDTree(sketch.points).query(problem.sample, workers=-1)
+    known = (distance < _NORMAL_REACH_IN_SPACINGS * np.median(distance))[:, None]
+    pieces = smooth_pieces(sketch.points, sketch.normals)
+    signs, sure = _signs(place, normal, sketch, 2 * reach)
+    sides = [_one_sign_each(pieces, item[sketch.piece]) for item in signs]
+    told = np.zeros(len(sketch.points))
+    if problem.sample_normals is not None:
+        cosines = _cosines(sketch, nearest, known * problem.sample_normals)
+        told = _signs_of_scan_normals(pieces, cosines, sure[sketch.piece])
+    if told.any():
+        theirs = np.where(told == 0, sides[0], told)
+        sides = [theirs, *(side for side in sides if (side * theirs < 0).mean() > _CONTRADICTION_SHARE)][:2]
+    return [np.where(known, (side[:, None] * sketch.normals)[nearest], 0.0) for side in sides
+            if side is sides[0] or (side != sides[0]).any()], bool(told.any())
+
+
+def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
+    """The right one of two fits of a sheet, to either of its skins; a single fit as it is.
+
+    Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
+    did not move far more.
+
+    Raises
+    ------
+    RefusedError : the scan shows a skin and nothing beside it, and both fits are as near to the nominal part
+    """
+    if len(states) == 1:
+        return states[0]
+    costs, matched, walls, moved = (np.array(item) for item in zip(*(_evidence(problem, state) for state in states),
+                                                                   strict=True))
+    costs = costs + _COST_OF_LOST_POINT * (matched.max() - matched)
+    for own, other in ((0, 1), (1, 0)):
+        if costs[own] < _COST_RATIO * costs[other]:
+            return states[own]
+    for own, other in ((0, 1), (1, 0)):
+        if walls[own] > _WALL_RATIO * walls[other] + _WALL_POINTS:
+            return states[own]
+    thickness = max(problem.couplings.pairs.solid_thickness)
+    if told:
+        chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
+        return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
+    for own, other in ((0, 1), (1, 0)):
+        if moved[own] < _MOVED_CLEARLY_LESS * moved[other]:
+            return states[own]
+        if moved[own] < _MOVED_ALIKE * moved[other]:
+            return replace(states[own], unsure=thickness)
+    raise RefusedError("The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as "
+                       "well, use a scan with normals, or align it to less than half the sheet's thickness first.")
+
+
+def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
+    """Cost in chi-square units, points of the sample that are matched, scan points on faces that are no skin, and mean
+    movement of all matched ones along the normals in mm."""
+    jet = problem.cells.displaced(problem.lattices, state.control_points)
+    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    found = correspond(problem.scan, frames, 4 * problem.statistics.noise)
+    walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
+    normal = normals(problem.cells.nominal, problem.cells.outward)[0]
+    moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]
+    misfit = float((state.values.weight * state.values.height**2).sum())
+    return (prior_cost(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
+            float(np.abs(moved).mean()) if len(moved) else np.inf)
+
+
+def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> tuple[list[Array], Array]:
+    """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
+
+    With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
+    Where a large piece is in doubt, its other sign comes second, with those of all others that are in doubt. What is
+    clear even against normals comes apart from these.
+    """
+    tree = cKDTree(np.hstack([place, most * normal]), balanced_tree=False, compact_nodes=False)
+    both = [tree.query(np.hstack([sketch.points, sign * most * sketch.normals]), distance_upper_bound=most,
+                       workers=-1)[0] for sign in (1.0, -1.0)]
+    lost = [np.bincount(sketch.piece, weights=np.isinf(found).astype(float)) for found in both]
+    distance = [np.bincount(sketch.piece, weights=np.minimum(found, most)) for found in both]
+    size = np.bincount(sketch.piece).astype(float)
+    told = _clearly_less(lost[0] + _LOST_FLOOR * size, lost[1] + _LOST_FLOOR * size, _LOST_RATIO)
+    near = np.where(told == 0, _clearly_less(distance[0], distance[1], _CLOSER), told)
+    doubtful = (told == 0) & (_clearly_less(distance[0], distance[1], _DOUBTFUL_RATIO) == 0)
+    main = doubtful & (size > _LARGE_PIECE_SHARE * size.sum())
+    first = np.where(main & (near == 0), np.where(distance[0] <= distance[1], 1.0, -1.0), near)
+    clear = np.where(told == 0, _clearly_less(distance[0], distance[1], _MUCH_CLOSER), told)
+    return [first, np.where(doubtful, -first, first)] if main.any() else [near], clear
+
+
+def _clearly_less(first: NDArray[np.number], second: NDArray[np.number], factor: float) -> Array:
+    """+1 where the first is less by that factor, −1 where the second is, else 0."""
+    return np.where(first < factor * second, 1.0, np.where(second < factor * first, -1.0, 0.0))
+
+
+def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _AGREEMENT) -> Array:
+    """The signs (n,) of most points of every smooth piece for all of it: 0 where they contradict each other.
+
+    Signs carried around the edge of a thin sheet may go astray; across a smooth surface they do not.
+    """
+    piece, side = pieces
+    size = np.bincount(piece)
+    mean = np.bincount(piece, weights=signs * side) / np.maximum(size, 1)
+    trusted = (np.abs(mean) > agreed) & (size >= _LEAST_PIECE_POINTS)
+    return np.where(trusted, np.sign(mean), 0.0)[piece] * side
+
+
+def _cosines(sketch: Sketch, nearest: Index, given: Array) -> Array:
+    """Mean cosine of the sketch's normals to those given (m, 3), some of them zero, of the nearest points: (n,)."""
+    count = len(sketch.points)
+    total = np.bincount(nearest, np.einsum("nx,nx->n", given, sketch.normals[nearest]), count)
+    return total / np.maximum(np.bincount(nearest, given.any(axis=1), count), 1)
+
+
+def _signs_of_scan_normals(pieces: tuple[Index, Array], cosine: Array, sure: Array) -> Array:
+    """Signs (n,) that the scan's normals give to the sketch's, 0 where they tell nothing.
+
+    They point out of the material, or all into it: then the sides that are ``sure`` (n,) from the points contradict
+    them. Where these contradict a part of them, or neighbours do each other, nobody knows what they mean.
+    """
+    signs = _one_sign_each(pieces, cosine, _NORMALS_AGREE)
+    compared = np.count_nonzero(sure * signs)
+    agreed = float((sure * signs).sum()) / compared if compared >= _LEAST_PIECE_POINTS else 1.0
+    if np.count_nonzero(signs) < _TELLING_NORMALS_SHARE * len(signs) or abs(agreed) < _AGREEMENT:
+        return np.zeros(len(signs))
+    return np.sign(agreed) * signs
+
+
+def smooth_pieces(points: Array, directions: Array) -> tuple[Index, Array]:
+    """Number of the smooth piece of every point, and ±1 that turns its normal (n, 3) to the piece's one side.
+
+    Every point is two nodes of a graph, one for each sign; a piece is two components of it, or a single one (and then
+    0 instead of ±1) where the surface has but one side.
+    """
+    count = len(points)
+    index = cKDTree(points).query(points, k=min(_NEIGHBOURS, count), workers=-1)[1]
+    start, end = np.repeat(np.arange(count), index.shape[1] - 1), index[:, 1:].ravel()
+    step = points[end] - points[start]
+    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
+    cosine = np.einsum("nx,nx->n", directions[start], directions[end])
+    rise = np.maximum(*(np.abs(np.einsum("nx,nx->n", step, directions[k])) for k in (start, end)))
+    smooth = (np.abs(cosine) > _SMOOTH_COSINE) & (rise < _SMOOTH_RISE)
+    start, end, crossed = start[smooth], end[smooth], (cosine[smooth] < 0) * count
+    rows = np.concatenate([start, start + count])
+    columns = np.concatenate([end + crossed, (end + count + crossed) % (2 * count)])
+    graph = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(2 * count, 2 * count))
+    plus, minus = connected_components(graph, directed=False)[1].reshape(2, count)
+    return np.unique(np.minimum(plus, minus), return_inverse=True)[1], np.sign(minus - plus).astype(float)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The (u, v) raster of all faces, aligned with the spans: k × k cells in every span, and their geometry.
+
+Arrays run over (span, cell in the span). The nominal geometry is kept; the current one is nominal + displacement, a
+matrix product with one table for all spans.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...arrays import Array, Index
+from ...face_geometry import FaceGeometry
+from ...trims import boundary_points, inside_trims
+from .lattices import Lattices, products
+
+DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+"""Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
+_BOUNDARY_SPACING = 0.3
+_LARGEST_TRIM_DISTANCE = 3.0
+_FACE_SEPARATION = 1e6
+
+
+@dataclass(frozen=True)
+class Jet:
+    """Positions and derivatives in (u, v) of the surfaces at fixed places: ``values`` (spans, k, 6, 3).
+
+    The third axis follows `DERIVATIVES`.
+    """
+
+    values: Array
+
+    @property
+    def position(self) -> Array:
+        return self.values[:, :, 0]
+
+    @property
+    def tangents(self) -> Array:
+        """S_u and S_v: (spans, k, 2, 3)."""
+        return self.values[:, :, 1:3]
+
+    @property
+    def seconds(self) -> Array:
+        """S_uu, S_uv and S_vv: (spans, k, 3, 3)."""
+        return self.values[:, :, 3:6]
+
+
+@dataclass(frozen=True)
+class SpanGrid:
+    """The same local places in every span of every face, with the nominal surface there.
+
+    Attributes
+    ----------
+    local : (k, 2) places in the unit span
+    tables : (6, k, 16) basis functions and their derivatives with respect to the local place
+    scale : (spans, 6) turns local derivatives into derivatives in (u, v)
+    nominal : the nominal surfaces
+    inside : (spans, k) whether the place is within the trims
+    outward : (spans,) +1 or −1: whether S_u × S_v points out of the material
+    """
+
+    local: Array
+    tables: Array
+    scale: Array
+    nominal: Jet
+    inside: NDArray[np.bool_]
+    outward: Array
+
+    def displaced(self, lattices: Lattices, control_points: Array, orders: int = 6) -> Jet:
+        """Nominal + displacement of control points (controls, 3): the first ``orders`` of `DERIVATIVES`."""
+        gathered = control_points[lattices.controls]
+        count, k = self.inside.shape
+        moved = np.matmul(self.tables[:orders].reshape(-1, 16), gathered).reshape(count, orders, k, 3)
+        moved *= self.scale[:, :orders, None, None]
+        return Jet(self.nominal.values[:, :, :orders] + moved.transpose(0, 2, 1, 3))
+
+
+def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:
+    """Unit normals out of the material (spans, k, 3) and area elements |S_u × S_v| (spans, k)."""
+    cross = np.cross(jet.tangents[:, :, 0], jet.tangents[:, :, 1])
+    area = np.sqrt(np.einsum("skx,skx->sk", cross, cross))
+    return cross * (outward[:, None] / np.maximum(area, 1e-12))[:, :, None], area
+
+
+def by_face(position: Array, face: Index) -> Array:
+    """Places (n, 3) in mm with a fourth coordinate that parts their faces (n,), so that a tree finds places of the own
+    face first: (n, 4)."""
+    return np.column_stack([position, _FACE_SEPARATION * face])
+
+
+def make_span_grid(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -> SpanGrid:
+    """Places at x × x in every span, x (m,) local coordinates."""
+    local = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
+    jets, inside = [], []
+    for face, lattice in zip(faces, lattices.faces, strict=True):
+        nu, nv = lattice.spans
+        u = (lattice.corner[0] + lattice.step[0] * (np.arange(nu)[:, None] + x)).ravel()
+        v = (lattice.corner[1] + lattice.step[1] * (np.arange(nv)[:, None] + x)).ravel()
+        jets.append(_by_span(face.surface.jet_on_grid(u, v, DERIVATIVES), nu, nv, len(x)))
+        inside.append(_by_span(inside_trims(face, u, v), nu, nv, len(x)))
+    tables = np.stack([products(local[:, 0], local[:, 1], *order) for order in DERIVATIVES])
+    scale = np.stack([lattices.step[:, 0] ** -du * lattices.step[:, 1] ** -dv for du, dv in DERIVATIVES], axis=1)
+    outward = np.array([face.outward for face in faces], dtype=float)[lattices.face_of_span]
+    return SpanGrid(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
+
+
+def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
+    rest = grid.shape[2:]
+    blocks = grid.reshape(nu, m, nv, m, *rest).swapaxes(1, 2)
+    return blocks.reshape(nu * nv, m * m, *rest)
+
+
+def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid) -> Array:
+    """Distance in mm of each cell from the border of its face, at most a few mm; negative outside: (spans, k)."""
+    distance = np.full(cells.inside.shape, _LARGEST_TRIM_DISTANCE)
+    for index, face in enumerate(faces):
+        border = boundary_points(face, _BOUNDARY_SPACING)
+        if len(border):
+            spans = np.flatnonzero(lattices.face_of_span == index)
+            position = cells.nominal.position[spans].reshape(-1, 3)
+            near = cKDTree(border).query(position, distance_upper_bound=_LARGEST_TRIM_DISTANCE)[0]
+            distance[spans] = np.minimum(near, _LARGEST_TRIM_DISTANCE).reshape(len(spans), -1)
+    return np.where(cells.inside, distance, -distance)

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The displacement lattices of all faces, numbered together: uniform cubic B-splines over each face's (u, v).
+
+The knots are uniform and not clamped, so that every span of every face carries the same 16 basis functions and one
+table serves them all. A closed direction is periodic by construction: its control points are numbered around.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Array, Index
+from ...face_geometry import FaceGeometry
+from ...splines import DEGREE, SplineSurface
+
+LEAST_CLOSED_SPANS = 8
+_PROBES_PER_SIDE = 17
+
+
+def cubic(x: Array, derivative: int = 0) -> Array:
+    """The four uniform cubic B-splines on a span of unit length, at x in [0, 1]: (n,) to (n, 4).
+
+    Derivatives are with respect to x. NURBS Book, section 2.4, on equidistant knots.
+    """
+    y = 1.0 - x
+    if derivative == 0:
+        return np.stack([y**3, 3 * x**3 - 6 * x**2 + 4, 3 * y**3 - 6 * y**2 + 4, x**3], axis=-1) / 6
+    if derivative == 1:
+        return np.stack([-(y**2), 3 * x**2 - 4 * x, 4 * y - 3 * y**2, x**2], axis=-1) / 2
+    return np.stack([y, 3 * x - 2, 3 * y - 2, x], axis=-1)
+
+
+def products(x: Array, y: Array, du: int = 0, dv: int = 0) -> Array:
+    """The 16 tensor products of `cubic` at local (x, y): (n, 16)."""
+    return (cubic(x, du)[:, :, None] * cubic(y, dv)[:, None, :]).reshape(len(x), 16)
+
+
+@dataclass(frozen=True)
+class FaceLattice:
+    """The lattice of one face.
+
+    Attributes
+    ----------
+    corner, step : (2,) lower corner of the parameter box and the size of a span, in (u, v)
+    spans : number of spans in u and v
+    periodic : whether u, v close on themselves
+    first_control, first_span : where the face starts in the common numbering
+    """
+
+    corner: Array
+    step: Array
+    spans: tuple[int, int]
+    periodic: tuple[bool, bool]
+    first_control: int
+    first_span: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of free control points in u and v."""
+        nu, nv = (n if p else n + DEGREE for n, p in zip(self.spans, self.periodic, strict=True))
+        return nu, nv
+
+    def controls(self) -> Index:
+        """Numbers of the 16 control points of every span, spans in row-major order: (spans, 16)."""
+        (nu, nv), (mu, mv) = self.spans, self.shape
+        iu = (np.arange(nu)[:, None] + np.arange(4)) % mu
+        iv = (np.arange(nv)[:, None] + np.arange(4)) % mv
+        grid = iu[:, None, :, None] * mv + iv[None, :, None, :]
+        return self.first_control + grid.reshape(nu * nv, 16)
+
+    def locate(self, uv: Array) -> tuple[Index, Array]:
+        """The span (in the common numbering) of each (u, v), wrapped or clipped, and the local place in it."""
+        place = (uv - self.corner) / self.step
+        spans = np.array(self.spans)
+        place = np.where(self.periodic, np.mod(place, spans), place)
+        cell = np.clip(np.floor(place), 0, spans - 1).astype(np.intp)
+        return self.first_span + cell[:, 0] * self.spans[1] + cell[:, 1], place - cell
+
+
+@dataclass(frozen=True)
+class Lattices:
+    """The lattices of all faces in one numbering.
+
+    Attributes
+    ----------
+    faces : one lattice per face
+    controls : (spans, 16) control points of each span
+    step : (spans, 2) size of each span in its face's (u, v)
+    face_of_span : (spans,)
+    face_of_control : (controls,)
+    """
+
+    faces: tuple[FaceLattice, ...]
+    controls: Index
+    step: Array
+    face_of_span: Index
+    face_of_control: Index
+
+    @property
+    def count(self) -> int:
+        """Number of control points."""
+        return len(self.face_of_control)
+
+    def weights(self, span: Index, local: Array, du: int, dv: int) -> Array:
+        """Weights (n, 16) of the control points of spans (n,) that give d or a derivative at local places (n, 2)."""
+        scale = self.step[span, 0] ** -du * self.step[span, 1] ** -dv
+        return products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
+
+    def spline(self, face: int, control_points: Array) -> SplineSurface:
+        """The displacement of one face, (controls, 3) in mm, as a spline of its own."""
+        lattice = self.faces[face]
+        mu, mv = lattice.shape
+        points = control_points[lattice.first_control : lattice.first_control + mu * mv].reshape(mu, mv, -1)
+        knots = []
+        for axis in range(2):
+            n = lattice.spans[axis]
+            knots.append(lattice.corner[axis] + lattice.step[axis] * np.arange(-DEGREE, n + DEGREE + 1))
+            if lattice.periodic[axis]:
+                points = np.concatenate([points, np.take(points, range(DEGREE), axis=axis)], axis=axis)
+        return SplineSurface(knots[0], knots[1], points, periodic_u=lattice.periodic[0], periodic_v=lattice.periodic[1])
+
+
+def build_lattices(faces: tuple[FaceGeometry, ...], span: float, turning: float, finer: dict[int, int]) -> Lattices:
+    """Lattices with spans of about ``span`` mm and at most ``turning`` radians of the normal.
+
+    ``finer`` maps a face to the number by which its spans are divided.
+    """
+    lattices: list[FaceLattice] = []
+    first_control = first_span = 0
+    for index, face in enumerate(faces):
+        u0, u1, v0, v1 = face.surface.range
+        periodic = (face.surface.periodic_u, face.surface.periodic_v)
+        spans = _spans(face, span, turning, periodic, finer.get(index, 1))
+        step = np.array([(u1 - u0) / spans[0], (v1 - v0) / spans[1]])
+        lattice = FaceLattice(np.array([u0, v0]), step, spans, periodic, first_control, first_span)
+        lattices.append(lattice)
+        first_control += lattice.shape[0] * lattice.shape[1]
+        first_span += spans[0] * spans[1]
+    sizes = [f.spans[0] * f.spans[1] for f in lattices]
+    return Lattices(tuple(lattices), np.concatenate([f.controls() for f in lattices]),
+                    np.repeat([f.step for f in lattices], sizes, axis=0), np.repeat(np.arange(len(faces)), sizes),
+                    np.repeat(np.arange(len(faces)), [f.shape[0] * f.shape[1] for f in lattices]))
+
+
+def _spans(face: FaceGeometry, span: float, turning: float, periodic: tuple[bool, bool], finer: int) -> tuple[int, int]:
+    u0, u1, v0, v1 = face.surface.range
+    u, v = np.linspace(u0, u1, _PROBES_PER_SIDE), np.linspace(v0, v1, _PROBES_PER_SIDE)
+    points = face.surface.on_grid(u, v)
+    normals = _normals(points)
+    counts = []
+    for axis in range(2):
+        length = np.linalg.norm(np.diff(points, axis=axis), axis=2).sum(axis=axis).max()
+        step = np.linalg.norm(np.diff(normals, axis=axis), axis=2)
+        turn = (2 * np.arcsin(np.clip(step / 2, 0, 1))).sum(axis=axis).max()
+        count = finer * max(1, int(np.ceil(length / span - 0.25)), int(np.ceil(turn / turning - 0.25)))
+        counts.append(max(count, LEAST_CLOSED_SPANS) if periodic[axis] else count)
+    return counts[0], counts[1]
+
+
+def _normals(grid: Array) -> Array:
+    """Unit normals of the quadrilaterals of a point grid; zero where one has no area (at a pole)."""
+    a = grid[1:, 1:] - grid[:-1, :-1]
+    b = grid[:-1, 1:] - grid[1:, :-1]
+    normal = np.cross(a, b)
+    size = np.linalg.norm(normal, axis=2, keepdims=True)
+    return np.divide(normal, size, out=np.zeros_like(normal), where=size > 1e-12)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How far the result may be off: 95 % bands from the covariance, the misfit, and what is known to fail at borders."""
+from __future__ import annotations
+
+import numpy as np
+from scipy.special import chdtri
+
+from ...arrays import Array, Index
+from ..problem import Problem
+from ..surfaces import FacePlaces
+
+TWO_SIDED = 1.96
+_UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 2.0
+"""The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
+that the shape strays as Student's t with two degrees of freedom does."""
+_NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 2.0
+"""Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
+reaches into the face."""
+_EDGE_MISFIT = 0.045
+"""Standard deviation in mm of the place of an edge beyond what its faces' covariance tells."""
+
+
+def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
+    """Covariance of the control points of spans from its blocks on the pattern: (n, 16, 16, 3, 3)."""
+    return covariance[problem.pattern.between(spans)].reshape(len(spans), 16, 16, 3, 3)
+
+
+def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Array, normal: Array, gap: Array,
+                 border: Array, misfit: Array) -> Array:
+    """Bands along the normals (spans, k, 3) at places with basis functions ``table`` (k, 16): (spans, k) in mm.
+
+    ``gap`` (spans, k) is the distance from what was observed, ``border`` that from the border of the face, in mm,
+    ``misfit`` (spans,) a variance in mm²; ``errors`` (n, controls, 3) are changes that shared noise may cause.
+    """
+    variance = np.zeros(normal.shape[:2])
+    for error in errors:
+        moved = np.matmul(table, error[problem.lattices.controls])
+        variance += np.einsum("skx,skx->sk", moved, normal) ** 2 / len(errors)
+    for start in range(0, len(normal), 256):
+        spans = np.arange(start, min(start + 256, len(normal)))
+        at = np.einsum("ki,kj,sijxy->skxy", table, table, span_covariance(problem, covariance, spans), optimize=True)
+        variance[spans] += np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
+    leak = _NEIGHBOUR_LEAK * problem.statistics.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
+    return _quantile(gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
+
+
+def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: FacePlaces, direction: Array, gap: Array,
+               misfit: Array) -> Array:
+    """Bands across edges with unit directions (n, 3): (n,) in mm; the others as for `normal_bands`, edge by edge.
+
+    The distance of two curves is two-dimensional; its 95 % quantile follows from the two variances across the edge by
+    Satterthwaite's approximation.
+    """
+    bands = np.zeros(len(samples))
+    for start in range(0, len(samples), 512):
+        part = samples.take(np.arange(start, min(start + 512, len(samples))))
+        blocks = span_covariance(problem, covariance, part.span)
+        at = np.einsum("ni,nj,nijxy->nxy", part.weights[0], part.weights[0], blocks, optimize=True)
+        for error in errors:
+            moved = part.displacement(error)
+            at += moved[:, :, None] * moved[:, None, :] / len(errors)
+        along = direction[start : start + len(part)]
+        project = np.eye(3) - along[:, :, None] * along[:, None, :]
+        variance = np.linalg.eigvalsh(project @ at @ project)[:, 1:]
+        variance = np.maximum(variance, 0) + (_EDGE_MISFIT**2 + misfit[start : start + len(part), None])
+        total = variance.sum(axis=1)
+        freedom = np.clip(total**2 / (variance**2).sum(axis=1), 1.0, 2.0)
+        bands[start : start + len(part)] = np.sqrt(total / freedom * chdtri(freedom, 0.05))
+    return _quantile(gap) / TWO_SIDED * bands
+
+
+def _quantile(gap: Array) -> Array:
+    """Half width of a 95 % band in standard deviations."""
+    return TWO_SIDED + (_UNSEEN_QUANTILE - TWO_SIDED) * np.clip(gap / _UNSEEN_DISTANCE, 0, 1)

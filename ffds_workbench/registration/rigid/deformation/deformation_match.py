@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A smooth deformation of the part that a scan of the right part is allowed beyond its rigid pose."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import Array
+from ..model import Target
+from .displacement_field import (LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement,
+                                 no_displacement)
+
+Rounds = Sequence[tuple[float, int]]
+
+_ROUND_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
+NO_DEFORMATION_ROUNDS = ()
+STIFF_DEFORMATION_ROUNDS = tuple((gate, 2) for gate in _ROUND_GATES)
+SOFT_DEFORMATION_ROUNDS = (*STIFF_DEFORMATION_ROUNDS[:2], *((gate, LARGEST_DEGREE) for gate in _ROUND_GATES[2:]))
+"""Rounds of a fit: gates as shares of the part's size, and degrees of the deformation. None at all; those that tell the
+part from another one; and those that follow a deformed part."""
+_LEAST_POINTS = 60
+"""Points from which a deformation is fitted."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """Points of the scan matched with the part after a smooth deformation is taken back.
+
+    Attributes
+    ----------
+    points : (n, 3) where the points lie without the deformation, model coordinates in mm
+    distance : (n,) from the sample in mm, infinite where nothing within reach faces the same way
+    nearest : (n,) index of the sample
+    height, normal : (n,) in mm over the face, and (n, 3) of the face
+    """
+
+    points: Array
+    distance: Array
+    nearest: NDArray[np.intp]
+    height: Array
+    normal: Array
+
+    def heights(self, points: Array, gate: float) -> DisplacementObservations | None:
+        """What the heights want of the deformation, where the points (n, 3) lie with it; None of too few points.
+
+        Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
+        """
+        some = np.flatnonzero(np.isfinite(self.distance))
+        if len(some) < _LEAST_POINTS:
+            return None
+        left, normal = self.height[some], self.normal[some]
+        wanted = left + np.einsum("ni,ni->n", normal, points[some] - self.points[some])
+        return DisplacementObservations(self.points[some], normal, wanted, left, np.ones(len(some)), gate)
+
+
+def match_undeformed(target: Target, points: Array, normals: Array, reach: float) -> Match:
+    """Points and outward normals (n, 3), without the deformation and in model coordinates, matched with the part."""
+    distance, nearest = target.nearest(points, normals, reach)
+    return Match(points, distance, nearest, *target.heights(points, nearest))
+
+
+def match_deformed(target: Target, points: Array, normals: Array, reach: float, rounds: Rounds,
+                   start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
+    """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
+
+    Parameters
+    ----------
+    points, normals : (n, 3) in model coordinates, normals outward
+    reach : largest distance in mm
+    rounds : gates as shares of the part's size, and degrees of the deformation
+    start : what is known of the deformation
+    """
+    deformation = no_displacement(target) if start is None else start
+    found = match_undeformed(target, points if start is None else deformation.straightened(points, points), normals,
+                             reach)
+    for gate, degree in rounds:
+        heights = found.heights(points, gate * target.size)
+        if heights is None:
+            break
+        deformation = fit_displacement(deformation.of_degree(degree), heights)
+        found = match_undeformed(target, deformation.straightened(points, found.points), normals, reach)
+    return found, deformation

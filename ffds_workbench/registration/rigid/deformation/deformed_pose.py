@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The pose that fits all of a deformed part best: each place of it against where it lies without the deformation."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...arrays import Array
+from ...motions import apply, best_fit
+from ..model import Rims, Target, kept_with_target
+from ..refine import ScanEnds, find_scan_ends, points_near_rims
+from .deformation_match import match_undeformed
+from .displacement_field import LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement
+
+_LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (LARGEST_DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
+"""Degree of the deformation in each look at the scan, and its rounds: every which point counts, least cut-off of the
+heights' weights, and how far off the ends of the scan may lie, as shares of the part's size."""
+_ON_FACE_SIGMAS, _COARSE_HEIGHT = 3.0, 0.01
+"""Height up to which a point near a rim is on its face, in standard deviations of what the deformation leaves; and at
+least in the first round of a look, as a share of the part's size."""
+_END_WEIGHT = 4.0
+"""What an end counts beyond its own uncertainty, as heights are off by what the polynomials cannot follow."""
+_CELL_COUNT = 600
+"""Pieces of the part's surface that its pose is the best fit of."""
+
+
+def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
+                          deformation: DisplacementField) -> tuple[Array, DisplacementField]:
+    """Motion (4, 4) that brings a deformed part onto the nominal one best, over all of its surface alike, and the
+    deformation that is left then.
+
+    Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface. Of the deformations
+    that explain them and the places where the scan ends, the likeliest is taken back. Once the part has moved by that
+    as a whole, the scan is looked at again: what lay far off was beside wrong rims.
+
+    Parameters
+    ----------
+    points, normals : (n, 3) of the scan in model coordinates, normals outward
+    reach : in mm
+    pool : (m, 3) more points, which show where the scan ends
+    noise : standard deviation of the points in mm
+    deformation : that is known already
+    """
+    middles, area = surface_cells(target)
+    pose = np.eye(4)
+    for degree, rounds in _LOOKS:
+        scan = _Scan(apply(pose, points), normals @ pose[:3, :3].T, apply(pose, pool), noise)
+        deformation = _fit_look(target, scan, reach, deformation.of_degree(degree), rounds)
+        motion = best_fit(middles + deformation(middles), middles, area)
+        pose, deformation = motion @ pose, deformation.moved(motion)
+    return pose, deformation
+
+
+@dataclass(frozen=True)
+class _Scan:
+    """See ``pose_of_deformed_part``."""
+
+    points: Array
+    normals: Array
+    pool: Array
+    noise: float
+
+
+def _fit_look(target: Target, scan: _Scan, reach: float, deformation: DisplacementField,
+              rounds: Sequence[tuple[int, float, float]]) -> DisplacementField:
+    """The likeliest deformation from where the scan lies and ends, coarse to fine."""
+    size, rims = target.size, target.rims
+    straight = deformation.straightened(scan.points, deformation.straightened(scan.points, scan.points))
+    near = deformation.straightened(scan.pool, scan.pool)
+    row, entry = points_near_rims(rims, near, rounds[0][2] * size, _hidden_stretches(rims, straight, scan.normals))
+    bent, border = scan.pool.take(row, axis=0), near.take(row, axis=0)
+    for turn, (every, gate, end_reach) in enumerate(rounds):
+        straight = deformation.straightened(scan.points, straight)
+        found = match_undeformed(target, straight[::every], scan.normals[::every], reach)
+        heights = found.heights(scan.points[::every], gate * size)
+        if heights is None:
+            break
+        spread = max(heights.spread, scan.noise)
+        border = deformation.straightened(bent, border)
+        ends = find_scan_ends(rims, border, entry, end_reach * size, scan.noise,
+                              max(_ON_FACE_SIGMAS * spread, 0.0 if turn else _COARSE_HEIGHT * size))
+        at_ends = _end_observations(ends, deformation, spread, end_reach * size)
+        deformation = fit_displacement(deformation, heights, at_ends, scan.noise)
+    return deformation
+
+
+def _hidden_stretches(rims: Rims, points: Array, normals: Array) -> NDArray[np.bool_]:
+    """Which stretches of rim are of the side of a sheet that the scan does not show; (m,)."""
+    nearest = cKDTree(points, balanced_tree=False, compact_nodes=False).query(rims.middles)[1]
+    return np.einsum("ni,ni->n", normals[nearest], rims.faces) < 0.0
+
+
+def _end_observations(ends: ScanEnds, deformation: DisplacementField, spread: float,
+                      cutoff: float) -> DisplacementObservations | None:
+    """What the ends want of the deformation; None if there are none."""
+    if not len(ends.gap):
+        return None
+    moved = np.einsum("ni,ni->n", deformation(ends.places), ends.outwards)
+    weight = _END_WEIGHT * spread**2 * ends.weight
+    return DisplacementObservations(ends.places, ends.outwards, moved + ends.gap, ends.gap, weight, cutoff)
+
+
+@kept_with_target
+def surface_cells(target: Target) -> tuple[Array, Array]:
+    """Centroids (k, 3) in mm and areas (k,) in mm² of small pieces of the surface.
+
+    A mean over them is exact for what is linear within a piece; one over points at random has the error of a random
+    sample, which tilts a bent part by some tenths of a degree.
+    """
+    samples, seeds = target.samples, target.even.points[:_CELL_COUNT]
+    cell = cKDTree(seeds).query(samples.points)[1]
+    area: Array = np.bincount(cell, samples.area, len(seeds)).astype(float)
+    held = area > 0.0
+    sums = np.stack([np.bincount(cell, samples.area * samples.points[:, k], len(seeds)) for k in range(3)], axis=1)
+    return sums[held] / area[held, None], area[held]

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a scan ends along the part's rims: what holds it in the directions that its surfaces leave free."""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import Array
+from ...motions import apply
+from ..model import Rims
+
+_DENSITY_BAND = (1.0, 5.0)
+"""How far inside the outermost point of a stretch of rim the scan's density is counted, in steps of the rims."""
+_LEAST_BAND_POINTS = 5
+"""Points in that band from which a stretch of rim says something."""
+_LARGEST_RANK, _WITHIN_NOISE = 4, 0.4
+"""Points at random end 1/density beyond the outermost one, or k/density beyond the k-th. The second to fourth one
+counts where more than one lies within this part of the noise, which carries points over the rim."""
+_WALL_STEPS, _WALL_SHARE = 2.0, 0.05
+"""Steps around the end, and below the face, in which a wall at the rim would be seen, and points of it, against those
+on the face in a mm, beside one that may be stray: from there on it is the wall that holds the scan."""
+_STRETCH_NEIGHBOURS, _LEAST_TELLING, _ODD_SIGMAS = 2, 3, 2.0
+"""Stretches to either side of one, how many of them all have to tell, and how far in standard deviations of its
+uncertainty one may lie from their median: a stray point or a hole makes a stretch of its own."""
+_LEAST_UNCERTAINTY = 0.05
+"""Uncertainty in mm of a rim, even in a dense scan: mixed pixels, rounded edges."""
+_USUAL_LOSS = 0.3
+"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this, in mm, weighs less.
+"""
+
+
+@dataclass(frozen=True)
+class ScanEnds:
+    """Stretches of rim along which the scan is seen to end.
+
+    Attributes
+    ----------
+    stretch : (n,) their numbers
+    places, outwards : (n, 3) in mm and unit vectors
+    gap : (n,) in mm from the rim to the end of the scan, negative where it ends inside
+    weight : (n,) 1/mm²
+    """
+
+    stretch: NDArray[np.intp]
+    places: Array
+    outwards: Array
+    gap: Array
+    weight: Array
+
+    def moved(self, motion: Array) -> ScanEnds:
+        """After the scan has moved on a little by (4, 4)."""
+        end = self.places + self.gap[:, None] * self.outwards
+        more = np.einsum("ni,ni->n", apply(motion, end) - end, self.outwards)
+        return replace(self, gap=self.gap + more)
+
+
+def points_near_rims(rims: Rims, points: Array, reach: float, hidden: NDArray[np.bool_] | None = None,
+                     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which of points (n, 3), in model coordinates, lie beside which of the rims: near enough to tell ends within a
+    reach.
+
+    Parameters
+    ----------
+    reach : in mm
+    hidden : (m,) which stretches are of the side of a sheet that the scan does not show: what lies beside those is of
+        the other side
+
+    Returns
+    -------
+    row, entry : (k,) numbers of the point and of the one on the rim; a point beside an edge has one on either face
+    """
+    nearest = rims.nearest(points, np.eye(4))
+    row = np.flatnonzero(nearest >= 0)
+    apart = points.take(row, axis=0) - rims.points.take(nearest[row], axis=0)
+    row = row[np.linalg.norm(apart, axis=1) < reach + _DENSITY_BAND[1] * rims.step]
+    first = nearest[row]
+    if hidden is not None:
+        first = np.where(hidden[rims.stretch[first]], rims.across[first], first)
+    partner = rims.partner[first]
+    other = partner != first
+    row, entry = np.concatenate([row, row[other]]), np.concatenate([first, partner[other]])
+    clear = rims.clear(_DENSITY_BAND[1] * rims.step)[entry]
+    return row[clear], entry[clear]
+
+
+def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: float, noise: float,
+                   tolerance: float) -> ScanEnds:
+    """Where the outermost points on the faces lie, and what their density lets expect beyond.
+
+    Parameters
+    ----------
+    points : (n, 3) in model coordinates beside the rims, of even density along each
+    entry : (n,) the point on the rim that each lies beside
+    reach : in mm; ends farther than this from the rim are not recognised
+    noise : standard deviation of the points in mm
+    tolerance : in mm, height up to which a point is on a face
+    """
+    count, step, width = len(rims.middles), rims.step, _DENSITY_BAND[1] - _DENSITY_BAND[0]
+    offset, stretch = points - rims.points.take(entry, axis=0), rims.stretch[entry]
+    beyond = np.einsum("ni,ni->n", offset, rims.outwards.take(entry, axis=0))
+    height = np.abs(np.einsum("ni,ni->n", offset, rims.normals.take(entry, axis=0)))
+    far = reach + _DENSITY_BAND[1] * step
+    on = np.flatnonzero((height < tolerance) & (np.abs(beyond) < far))
+    on = on[np.argsort(2.0 * far * stretch[on] - beyond[on])]  # by stretch, and of each from the outermost one on
+    first = np.searchsorted(stretch[on], np.arange(count + 1))
+    first, number = first[:-1], np.diff(first)
+    outermost = np.full(count, -np.inf)
+    outermost[number > 0] = beyond[on[first[number > 0]]]
+    inside = (outermost[stretch[on]] - beyond[on]) / step
+    band = np.bincount(stretch[on][(inside > _DENSITY_BAND[0]) & (inside < _DENSITY_BAND[1])], minlength=count)
+    density = band / (width * step)
+    wall = (height >= tolerance) & (height < tolerance + 2.0 * _WALL_STEPS * step)
+    wall &= np.abs(beyond - outermost[stretch]) < _WALL_STEPS * step
+    strange = np.bincount(stretch[wall], minlength=count)
+    told = np.flatnonzero((band >= _LEAST_BAND_POINTS) & (number > _LARGEST_RANK)
+                          & (strange < 1.0 + _WALL_SHARE * density))
+    density = density[told]
+    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * density), 1, _LARGEST_RANK).astype(int)
+    gap = beyond[on[first[told] + rank - 1]] + rank / density
+    spread = np.sqrt(_LEAST_UNCERTAINTY**2 + rank / density**2)
+    seen = (np.abs(gap) < reach) & _agrees_with_neighbours(told, gap, spread, count)
+    told, gap, spread = told[seen], gap[seen], spread[seen]
+    weight = 1.0 / (spread * np.hypot(1.0, np.minimum(gap, 0.0) / _USUAL_LOSS)) ** 2
+    return ScanEnds(told, rims.middles[told], rims.outward_directions[told], gap, weight)
+
+
+def _agrees_with_neighbours(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int) -> NDArray[np.bool_]:
+    """Whether the gap of a stretch is about that of its neighbours along the rim, and enough of them tell."""
+    gaps = np.full(count + 2 * _STRETCH_NEIGHBOURS, np.nan)
+    gaps[stretch + _STRETCH_NEIGHBOURS] = gap
+    around = np.sort(np.lib.stride_tricks.sliding_window_view(gaps, 2 * _STRETCH_NEIGHBOURS + 1)[stretch], axis=1)
+    number = np.isfinite(around).sum(axis=1)
+    middle = 0.5 * (around[np.arange(len(stretch)), (number - 1) // 2] + around[np.arange(len(stretch)), number // 2])
+    return (number >= _LEAST_TELLING) & (np.abs(gap - middle) < _ODD_SIGMAS * spread)

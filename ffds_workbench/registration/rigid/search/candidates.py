@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Search over many poses at once: a look-up table of nearest samples, and one Gauss-Newton step for all of them."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...arrays import Array
+from ...motions import angle, apply, shift, twist_motion, twist_rows
+from ..model import Target, kept_with_target
+
+_SIDES = np.concatenate([np.eye(3), -np.eye(3)])
+_SAME_SIDE_COSINE = 0.35
+_TABLE_VOXELS, _TABLE_MARGIN = 40, 0.2
+"""Voxels of the look-up table along its longest side, and share of the part's size that it reaches beyond the part."""
+
+
+@dataclass(frozen=True)
+class NearestField:
+    """Nearest sample that faces the same way, on a voxel grid around the part: a look-up costs an index and no tree.
+
+    Attributes
+    ----------
+    origin : (3,) in mm
+    voxel : edge length in mm
+    nearest : (7, nx, ny, nz) index into points, one table for each of the directions ±x, ±y, ±z of the normal, and one
+        for normals that are not known
+    points, normals : (m, 3) samples
+    centre, size : of the part, (3,) and a length in mm
+    """
+
+    origin: Array
+    voxel: float
+    nearest: NDArray[np.int32]
+    points: Array
+    normals: Array
+    centre: Array
+    size: float
+
+    def __call__(self, points: Array, normals: Array | None) -> NDArray[np.int32]:
+        """Index of the nearest sample for points and normals (…, 3); outside the grid the border counts."""
+        shape = np.array(self.nearest.shape[1:], dtype=np.int32)
+        cell = np.clip(((points - self.origin) / self.voxel).astype(np.int32), 0, shape - 1)
+        if normals is None:
+            side = np.array(len(_SIDES))
+        else:
+            axis = np.argmax(np.abs(normals), axis=-1)
+            side = axis + 3 * (np.take_along_axis(normals, axis[..., None], axis=-1)[..., 0] < 0)
+        flat = ((side * shape[0] + cell[..., 0]) * shape[1] + cell[..., 1]) * shape[2] + cell[..., 2]
+        return self.nearest.ravel()[flat]
+
+
+@kept_with_target
+def nearest_field(target: Target) -> NearestField:
+    """The look-up table of a part and its surroundings."""
+    points, normals = target.even.points, target.even.normals
+    low, high = points.min(axis=0) - _TABLE_MARGIN * target.size, points.max(axis=0) + _TABLE_MARGIN * target.size
+    voxel = float((high - low).max()) / _TABLE_VOXELS
+    axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
+    tables = []
+    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE_COSINE) for side in _SIDES), np.arange(len(points))]:
+        facing = facing if len(facing) else np.arange(len(points))
+        tables.append(facing[cKDTree(points[facing]).query(grid.reshape(-1, 3))[1]].reshape(grid.shape[:3]))
+    return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size)
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Poses under trial.
+
+    Attributes
+    ----------
+    poses : (k, 4, 4), T_model_scan
+    signs : (k, p) for each piece of the scan's surface +1 if its normals point out of the part, −1 if into it
+    """
+
+    poses: Array
+    signs: Array
+
+    def __getitem__(self, chosen: NDArray) -> Candidates:
+        return Candidates(self.poses[chosen], self.signs[chosen])
+
+    def __len__(self) -> int:
+        return len(self.signs)
+
+    @classmethod
+    def all_signs(cls, poses: Array, pieces: int) -> Candidates:
+        """Every pose with every combination of signs."""
+        signs = np.array(list(product((1.0, -1.0), repeat=pieces)))
+        return cls(np.tile(poses, (len(signs), 1, 1)), np.repeat(signs, len(poses), axis=0))
+
+
+@dataclass(frozen=True)
+class Probe:
+    """Points of the scan that the search looks at.
+
+    Attributes
+    ----------
+    points, normals : (m, 3)
+    piece : (m,) the piece of surface that each belongs to
+    sided : whether the normals tell one side from the other; else they hardly count
+    """
+
+    points: Array
+    normals: Array
+    piece: NDArray[np.intp]
+    sided: bool = True
+
+
+def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Sequence[float]) -> Candidates:
+    """One Gauss-Newton step per gate for all candidates; ``gates`` are the distances in mm at which the weight
+    (Geman-McClure) has fallen to a quarter."""
+    poses, scale = candidates.poses, np.array([2.0 / field.size] * 3 + [1.0] * 3)
+    for gate in gates:
+        moved, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, poses)
+        distance = np.einsum("kmi,kmi->km", offset, offset)
+        weight = (gate**2 / (gate**2 + distance)) ** 2 * (0.02 + agreement**2)
+        height = np.einsum("kmi,kmi->km", normal, offset)
+        jacobian = twist_rows(moved - field.centre, normal) * scale
+        weighted = jacobian * weight[:, :, None]
+        matrix = np.swapaxes(weighted, 1, 2) @ jacobian
+        right = -np.einsum("kmi,km->ki", weighted, height)
+        # a weak pull towards the sample itself: where planes leave a direction free the outline still guides the pose
+        pull = 0.1 * weight
+        matrix[:, 3:, 3:] += np.eye(3) * pull.sum(axis=1)[:, None, None]
+        right[:, 3:] -= np.einsum("km,kmi->ki", pull, offset)
+        matrix += np.eye(6) * (1e-3 * weight.sum(axis=1) + 1e-12)[:, None, None]
+        update = np.linalg.solve(matrix, right[:, :, None])[:, :, 0] * scale
+        turn = np.linalg.norm(update[:, :3], axis=1, keepdims=True)
+        update[:, :3] *= np.minimum(1.0, 0.5 / np.maximum(turn, 1e-12))
+        poses = twist_motion(update, field.centre) @ poses
+    return Candidates(poses, candidates.signs)
+
+
+def scores(field: NearestField, probe: Probe, candidates: Candidates, width: float) -> Array:
+    """Mean over the points of closeness (to ``width`` mm) times agreement of the normals, 0…1; (k,)."""
+    _, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, candidates.poses)
+    distance = np.einsum("kmi,kmi->km", offset, offset)
+    return (agreement * width**2 / (width**2 + distance)).mean(axis=1)
+
+
+def _match_nearest(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
+    """Moved points, their offsets from the nearest samples, those samples' normals, and how well they agree."""
+    moved = apply(poses, probe.points)
+    turned = signs[:, probe.piece, None] * (probe.normals @ np.swapaxes(poses[:, :3, :3], -1, -2))
+    nearest = field(moved, turned if probe.sided else None)
+    surface_normal = field.normals[nearest]
+    cosine = np.einsum("kmi,kmi->km", turned, surface_normal)
+    agreement = np.maximum(cosine, 0.0) if probe.sided else 0.6 + 0.4 * np.abs(cosine)
+    return moved, moved - field.points[nearest], surface_normal, agreement
+
+
+def distinct(candidates: Candidates, score: Array, centre: Array, most: int, turn: float, distance: float,
+             ) -> NDArray[np.intp]:
+    """Indices of the best candidates that differ by more than ``turn`` rad or ``distance`` mm, best first."""
+    kept: list[int] = []
+    for k in np.argsort(-score):
+        others = candidates[np.array(kept, dtype=np.intp)]
+        pose = candidates.poses[k]
+        same = ((others.signs == candidates.signs[k]).all(axis=1) & (angle(others.poses, pose) < turn)
+                & (shift(others.poses, pose, centre) < distance))
+        if not same.any():
+            kept.append(int(k))
+        if len(kept) == most:
+            break
+    return np.array(kept, dtype=np.intp)

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Normals of a scan, for telling a face from the walls that cross it."""
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .arrays import Array
+from .footpoints import SurfaceCoordinates
+from .uv_raster import Raster, dot
+
+_PLANE_NEIGHBOURS = 12
+_ALIKE_COSINE = 0.6
+"""Cosine of the angle between a point's normal and its face's from which they face the same way."""
+
+
+def scan_normals(points: Array) -> Array:
+    """Unit normals of scan points, their sign unknown, from the plane through each point's neighbours; (n, 3)."""
+    count = min(_PLANE_NEIGHBOURS, len(points))
+    neighbours = points[cKDTree(points).query(points, count)[1].reshape(len(points), count)]
+    neighbours = neighbours - neighbours.mean(axis=1, keepdims=True)
+    return np.asarray(np.linalg.eigh(neighbours.transpose(0, 2, 1) @ neighbours)[1][:, :, 0])
+
+
+def faces_alike(raster: Raster, points: SurfaceCoordinates, normals: Array) -> NDArray[np.bool_]:
+    """Whether the scan's normals, (k, 3) at the given points, are those of the face below them; (k,)."""
+    return np.asarray(np.abs(dot(raster.normal[points.in_cell[0]], normals)) > _ALIKE_COSINE)

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the search for a pose works with: a few thousand even points of the scan with normals, and the table found.
+
+The normals of one connected piece of surface are turned to one side; which side is outside only the model can tell.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError, cKDTree
+
+from .arrays import Array
+from .normal_sides import orient_normals
+from .parallel import workers
+
+_POOL_SIZE = 40_000
+_POINT_COUNT, _FINER_FACTOR = 2_000, 4
+_PLANE_NEIGHBOURS = (14, 40)
+_ROUGHNESS = 0.22
+"""Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
+_SPARSE_IN_SCAN, _ALONE_AMONG_OWN = 4.0, 1.6
+"""A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
+its neighbours' own are."""
+_DENSITY_NEIGHBOURS, _NEIGHBOUR_STRIDE, _MEDIAN_POINTS, _DOUBTFUL_DENSITY = 9, 3, 500, 1.3
+"""Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
+over it from which a point may be stray."""
+_INVERSE_STEPS = 2
+"""Steps of inverse iteration for a normal after the first one: each divides its error by that of the two least
+eigenvalues, 4 and more where the surface is one."""
+_COUNT_TOLERANCE = 1.15
+"""So many times as many points are as many."""
+_CELLS_PER_POINT = 100
+"""Cells per point up to which a table of all cells is faster than to sort the points."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """Even points of a scan.
+
+    Attributes
+    ----------
+    points, normals : (n, 3) in mm and unit vectors, of one sign within a piece
+    piece : (n,) number of the connected piece, 0 the largest
+    noise : standard deviation in mm of the scan about its own local planes
+    pool : (m, 3) more points of the same surfaces, not thinned
+    scan : (k, 3) all points
+    """
+
+    points: Array
+    normals: Array
+    piece: NDArray[np.intp]
+    noise: float
+    pool: Array
+    scan: Array
+
+    @cached_property
+    def spacing(self) -> float:
+        """Median distance in mm between neighbouring points."""
+        return float(np.median(cKDTree(self.points).query(self.points[:_MEDIAN_POINTS], k=2)[0][:, 1]))
+
+    def every(self, step: int) -> Sketch:
+        """The same of fewer points."""
+        return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane that the scan shows beside the part, with everything else on its positive side.
+
+    Attributes
+    ----------
+    normal : (3,) unit vector
+    offset : normal · x in mm
+    tolerance : points within it belong to the plane, mm
+    """
+
+    normal: Array
+    offset: float
+    tolerance: float
+
+    def heights(self, points: Array) -> Array:
+        return points @ self.normal - self.offset
+
+
+def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_COUNT, pool_size: int = _POOL_SIZE,
+              finer: int = _FINER_FACTOR) -> Sketch:
+    """Even points with normals from a random part of the scan; what stands alone is dropped.
+
+    Parameters
+    ----------
+    scan : (n, 3) in mm
+    generator : random choice of the points
+    count : how many points to aim at
+    pool_size : how many points of the scan to look at
+    finer : so many times as many points tell the sides of the surface: far ones link what is not one surface
+    """
+    pool = scan if len(scan) <= pool_size else scan.take(generator.integers(0, len(scan), pool_size), axis=0)
+    tree = cKDTree(pool, balanced_tree=False, compact_nodes=False)
+    points = pool[thin(pool, finer * count)]
+    distance, index = tree.query(points, k=min(_PLANE_NEIGHBOURS[0], len(pool)), workers=workers(points))
+    among = _not_isolated(tree, distance, index)
+    points, distance, index = points[among], distance[among], index[among]
+    normals, roughness = _local_planes(pool[index])
+    if np.median(roughness / np.maximum(distance[:, -1], 1e-12)) > _ROUGHNESS:
+        index = tree.query(points, k=min(_PLANE_NEIGHBOURS[1], len(pool)), workers=workers(points))[1]
+        normals, roughness = _local_planes(pool[index])
+    normals, piece = orient_normals(points, normals)
+    even = thin(points, count)
+    return Sketch(points[even], normals[even], piece[even], float(np.median(roughness)), pool, scan)
+
+
+def thin(points: Array, count: int) -> NDArray[np.intp]:
+    """Indices of about ``count`` points, one per voxel of a size found by bisection."""
+    if len(points) <= _COUNT_TOLERANCE * count:
+        return np.arange(len(points))
+    low, high = 0.0, float(np.ptp(points, axis=0).max())
+    base = np.ascontiguousarray((points - points.min(axis=0)).T)
+    chosen = np.arange(len(points))
+    probe = high / np.sqrt(count)
+    for _ in range(12):
+        chosen = _first_of_each((base * (1.0 / probe)).astype(np.int64))
+        if count <= _COUNT_TOLERANCE * len(chosen) and len(chosen) <= _COUNT_TOLERANCE * count:
+            break
+        low, high = (probe, high) if len(chosen) > count else (low, probe)
+        probe *= np.sqrt(len(chosen) / count)
+        if not low < probe < high:
+            probe = 0.5 * (low + high)
+    return chosen
+
+
+def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
+    """Index of a point in each of the cells (3, n), numbered from 0, that hold any."""
+    shape = cell.max(axis=1) + 1
+    key = (cell[0] * shape[1] + cell[1]) * shape[2] + cell[2]
+    if np.prod(shape, dtype=float) > _CELLS_PER_POINT * len(key):
+        return np.unique(key, return_index=True)[1]
+    first = np.full(shape.prod(), -1, dtype=np.intp)
+    first[key] = np.arange(len(key))
+    return first[first >= 0]
+
+
+def _not_isolated(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which points lie as dense as the scan does in the median, and as dense as their own neighbours do.
+
+    The second is the local outlier factor (M. Breunig et al., LOF, 2000) in short: a stray point just above a surface
+    has near neighbours, but those have far nearer ones.
+
+    Parameters
+    ----------
+    tree : of the scan
+    distance, index : (n, k) in mm, of the neighbours of some of its points: even ones, among which strays are far more
+        frequent than in the scan
+    """
+    k = min(_DENSITY_NEIGHBOURS, distance.shape[1])
+    usual = max(float(np.median(tree.query(tree.data[:_MEDIAN_POINTS], k=k)[0][:, -1])), 1e-9)
+    farthest = distance[:, k - 1]
+    among = farthest < _SPARSE_IN_SCAN * usual
+    doubtful = np.flatnonzero(among & (farthest > _DOUBTFUL_DENSITY * usual))
+    theirs = tree.query(tree.data[index[doubtful, 1:k:_NEIGHBOUR_STRIDE]], k=k, workers=-1)[0][:, :, -1]
+    among[doubtful] = farthest[doubtful] < _ALONE_AMONG_OWN * np.median(theirs, axis=1)
+    return among
+
+
+def _local_planes(neighbourhoods: Array) -> tuple[Array, Array]:
+    """Normal and standard deviation about the plane through (n, k, 3) neighbourhoods, the point itself first.
+
+    Neighbours off a first plane weigh less in the second: the other side of a thin sheet is not the same surface.
+    """
+    offset = neighbourhoods - neighbourhoods[:, :1]
+    radius = np.sqrt(np.einsum("nki,nki->nk", offset, offset).max(axis=1, keepdims=True))
+    flat = _flattest(_scatter(offset, np.ones(offset.shape[:2])))
+    height = (offset @ flat[:, :, None])[:, :, 0]
+    weight = np.exp(-((height / np.maximum(0.5 * radius, 1e-12)) ** 2))
+    scatter = _scatter(offset, weight)
+    normal = _flattest(scatter)
+    square = np.einsum("ni,nij,nj->n", normal, scatter, normal)
+    return normal, np.sqrt(np.maximum(square, 0.0) / np.maximum(weight.sum(axis=1) - 3.0, 1.0))
+
+
+def _scatter(offset: Array, weight: Array) -> Array:
+    """Weighted sums (n, 3, 3) of squares about the mean of neighbourhoods (n, k, 3) with weights (n, k)."""
+    centred = offset - (weight[:, None] @ offset) / weight.sum(axis=1)[:, None, None]
+    return np.swapaxes(centred * weight[:, :, None], 1, 2) @ centred
+
+
+def _flattest(scatter: Array) -> Array:
+    """Unit eigenvectors (n, 3) of the least eigenvalues of matrices (n, 3, 3), by inverse iteration.
+
+    The inverse is the adjugate but for a factor, and its columns are cross products: a tenth of the time of ``eigh``.
+    """
+    inverse = np.stack([np.cross(scatter[:, k - 2], scatter[:, k - 1]) for k in range(3)], axis=2)
+    longest = np.einsum("nik,nik->nk", inverse, inverse).argmax(axis=1)
+    vector = inverse[np.arange(len(inverse)), :, longest]
+    for _ in range(_INVERSE_STEPS):
+        vector = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
+        vector = (inverse @ vector[:, :, None])[:, :, 0]
+    return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300))
+
+
+def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) -> Plane | None:
+    """The plane that the part lies on or stands before, or None.
+
+    It holds a good share of the points, spreads wider than any side of the part could, and has all else on one side.
+
+    Parameters
+    ----------
+    sketch : even points of the whole scan
+    shadow : largest area in mm² that the part can cover on a plane
+    """
+    points, normals = sketch.points, sketch.normals
+    tolerance = max(5.0 * sketch.noise, 2e-3 * float(np.linalg.norm(np.ptp(points, axis=0))))
+    trial = generator.integers(0, len(points), 200)
+    height = points @ normals[trial].T - np.einsum("ni,ni->n", points[trial], normals[trial])
+    inside = (np.abs(height) < tolerance) & (np.abs(normals @ normals[trial].T) > 0.95)
+    best = inside[:, np.argmax(inside.sum(axis=0))]
+    for _ in range(3):
+        centre = points[best].mean(axis=0)
+        vectors = np.linalg.svd(points[best] - centre, full_matrices=False)[2]
+        height = (points - centre) @ vectors[2]
+        best = np.abs(height) < tolerance
+    if best.mean() < 0.15 or best.sum() < 50:
+        return None
+    side = np.sign(np.median(height[~best])) if (~best).any() else 1.0
+    below = float(np.mean(side * height < -tolerance))
+    if below > 0.03:
+        return None
+    try:
+        area = ConvexHull((points[best] - centre) @ vectors[:2].T).volume
+    except QhullError:
+        return None
+    if area < 1.2 * shadow:
+        return None
+    spread = 1.4826 * float(np.median(np.abs(height[best])))
+    normal = side * vectors[2]
+    return Plane(normal, float(normal @ centre), float(np.clip(6.0 * spread, 1e-3 * tolerance, tolerance)))
