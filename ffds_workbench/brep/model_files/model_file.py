@@ -15,15 +15,16 @@ from pathlib import Path
 import FreeCAD
 import Part
 
-from ...compat import write_step
 from ...errors import InputError, RefusedError
-from . import document_colours, step_colours, step_order
+from .. import topology
+from . import document_colours, step_colours, step_file
+from .read_back import ReadBack, compare
 from .step_colours import Decoration
 
 _EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 _DOCUMENT = ".fcstd"
-_MOST_UNCERTAIN = 0.001
-"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
+_STEP = (".step", ".stp")
+_OTHER = ("", ": write .brep or .FCStd")
 FORMATS = ".step .stp .iges .igs .brep .FCStd"
 OUTPUT_FORMATS = (".step", ".stp", ".brep", _DOCUMENT)
 
@@ -75,7 +76,7 @@ def read(path: str | Path, label: str | None = None) -> Model:
     except (RuntimeError, OSError, ValueError, Part.OCCError, FreeCAD.Base.FreeCADError) as error:
         raise InputError(f"The model {path} cannot be read: it is damaged or not a {suffix} file.") from error
     model = _checked(path, Model(shape, path.stem))
-    if suffix not in (".step", ".stp"):
+    if suffix not in _STEP:
         return model
     decoration = step_colours.read(path.read_text("utf-8", errors="replace"), _kinds(shape))
     return Model(shape, decoration.product or path.stem, decoration)
@@ -176,10 +177,11 @@ def check_output(path: Path) -> None:
         raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
 
 
-def write(model: Model, path: Path) -> None:
-    """Write a model to a new file; wrap it in `output.replacing` to replace an old one.
+def write(model: Model, path: Path) -> ReadBack:
+    """Write a model to a new file, and read it back; wrap it in `output.replacing` to replace an old one.
 
-    The name and the colours go into STEP and FCStd. A STEP file is read back and must hold the same faces, valid.
+    The name and the colours go into STEP and FCStd. What the file holds has the same sub-shapes under the same numbers;
+    in BREP and FCStd stored in the same way too.
 
     Raises
     ------
@@ -188,39 +190,30 @@ def write(model: Model, path: Path) -> None:
     """
     check_output(path)
     suffix = path.suffix.lower()
-    if suffix == ".brep":
-        path.write_text(model.shape.exportBrepToString(), "utf-8")
-    elif suffix == _DOCUMENT:
-        _write_document(model, path)
+    if suffix in _STEP:
+        back = step_file.write(model.shape, replace(model.decoration, product=model.label), _kinds(model.shape), path)
+        different = back.differences(topology.read(model.shape))
+        if different:
+            raise RefusedError(f"A STEP file would {different}: write .brep or .FCStd, which keep them.")
     else:
-        _write_step(model, path)
+        back = _write_exactly(model, path)
+    if model.shape.isValid() and not back.shape.isValid():
+        raise RefusedError(f"The {suffix} file does not read back as a valid shape{_OTHER[suffix in _STEP]}.")
+    return back
 
 
-def _write_step(model: Model, path: Path) -> None:
-    try:
-        write_step(step_order.ordered(model.shape), path)
-    except (OSError, RuntimeError, Part.OCCError) as error:
-        raise RefusedError(f"The STEP file could not be written: {error}.") from error
-    if not path.exists() or not step_colours.is_complete(path):
-        raise RefusedError("The STEP file could not be written whole: is the disk full?")
-    decoration = replace(model.decoration, product=model.label)
-    text = step_colours.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape))
-    path.write_text(step_colours.with_uncertainty(text, min(_tolerance(model.shape), _MOST_UNCERTAIN)), "utf-8")
-    copy = Part.read(str(path))
-    if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):
-        raise RefusedError("The STEP file does not hold all faces of the result: write .brep or .FCStd.")
-    if not copy.isValid():
-        raise RefusedError("The STEP file does not read back as a valid shape: write .brep or .FCStd.")
-
-
-def _tolerance(shape: Part.Shape) -> float:
-    """Largest tolerance of an edge or vertex in mm."""
-    return max((part.Tolerance for part in (*shape.Edges, *shape.Vertexes)), default=0.0)
-
-
-def _bodies(shape: Part.Shape) -> int:
-    """Solids that have faces; a STEP file has no others."""
-    return sum(1 for solid in shape.Solids if solid.Faces)
+def _write_exactly(model: Model, path: Path) -> ReadBack:
+    suffix, written = path.suffix.lower(), topology.read(model.shape)
+    if suffix == _DOCUMENT:
+        _write_document(model, path)
+        shape = _read_document(path, None).shape
+    else:
+        path.write_text(model.shape.exportBrepToString(), "utf-8")
+        shape = Part.read(str(path))
+    back = compare(suffix, model.shape, written, shape)
+    if back.topology != written or back.edges or back.vertices:
+        raise RefusedError(f"The {suffix} file does not read back as what was written: is the disk full?")
+    return back
 
 
 def _write_document(model: Model, path: Path) -> None:

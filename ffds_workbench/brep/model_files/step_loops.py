@@ -10,20 +10,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...registration.splines import Array
-from ..occt_text.records import Reference
+from ...registration.arrays import Array
+from ..occt_text.records import ShapeReference
 
 
 @dataclass(frozen=True)
-class Use:
+class LoopEdge:
     """An edge in a loop: its index, its orientation with the face taken FORWARD, and how the wire refers to it."""
 
     edge: int
     orientation: str
-    reference: Reference
+    reference: ShapeReference
 
 
-Loop = tuple[Use, ...]
+Loop = tuple[LoopEdge, ...]
 Ends = Sequence[tuple[int, int]]
 """Per edge, the vertices at its first and at its last parameter."""
 
@@ -62,11 +62,11 @@ def chained(loop: Loop, ends: Ends, uv: Array) -> Loop | None:
     return result if in_order(result, ends) else None
 
 
-def _start(use: Use, ends: Ends) -> int:
+def _start(use: LoopEdge, ends: Ends) -> int:
     return ends[use.edge][use.orientation == "-"]
 
 
-def _end(use: Use, ends: Ends) -> int:
+def _end(use: LoopEdge, ends: Ends) -> int:
     return ends[use.edge][use.orientation != "-"]
 
 

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 import Part
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from ..occt_text.curves import read_curve
 from ..occt_text.instances import Instance, Locations, composed, product, walk
 from ..occt_text.records import (
@@ -24,15 +24,13 @@ from ..occt_text.records import (
     CurveOnSurface,
     EdgeCurves,
     FaceSurface,
-    Reference,
+    ShapeReference,
     VertexPoint,
     dump,
     parse,
 )
-from ..occt_text.turned import SurfaceRecord, turned_curve
-from .step_loops import Loop, Use, backwards, begun, chained, in_order, other
-
-_PLANE = "1"
+from ..occt_text.turned import Plane, SplineRecord, read_surface, turned_curve
+from .step_loops import Loop, LoopEdge, backwards, begun, chained, in_order, other
 
 
 def ordered(shape: Part.Shape) -> Part.Shape:
@@ -103,11 +101,9 @@ class _Arrangement:
         loops = [self._chained(face.shape, loop) for loop in as_stored]
         if not all(loops):
             return
-        record = self.brep.surfaces[self._surface(face.shape).surface - 1]
-        if record.startswith(_PLANE + " ") and loops == as_stored:
-            return
-        surface = SurfaceRecord.read(record) if self._users[self._surface(face.shape).surface] == 1 else None
-        if len(loops) == 1 and surface is not None and self._is_whole(loops[0]):
+        number = self._surface(face.shape).surface
+        surface = read_surface(self.brep.surfaces[number - 1]) if self._users[number] == 1 else None
+        if len(loops) == 1 and isinstance(surface, SplineRecord) and self._is_whole(loops[0]):
             self._turn(face.shape, self._as_read_whole(face.shape, loops[0], surface), loops)
             return
         begun_loops = self._begun(loops, met)
@@ -116,13 +112,18 @@ class _Arrangement:
         elif surface is not None:
             begun_loops = self._begun([backwards(loop) for loop in loops], met)
             if begun_loops is not None:
-                self._turn(face.shape, surface.turned(0), [backwards(loop) for loop in begun_loops])
+                self._turn(face.shape, surface.turned(), [backwards(loop) for loop in begun_loops])
+
+    def _is_ring(self, loop: Loop) -> bool:
+        """Whether the loop is two seams that meet in one vertex, as on a torus."""
+        return len(loop) == 4 and len({use.edge for use in loop}) == 2 == len(
+            {use.edge for use in loop if self._ends[use.edge][0] == self._ends[use.edge][1]})
 
     def _is_whole(self, loop: Loop) -> bool:
         """Whether the loop is one seam there and back, as round a sphere: STEP says of such a face just one vertex."""
         return len({use.edge for use in loop if not self._degenerated[use.edge]}) == 1 and len(loop) == 4
 
-    def _as_read_whole(self, face: int, loop: Loop, surface: SurfaceRecord) -> SurfaceRecord:
+    def _as_read_whole(self, face: int, loop: Loop, surface: SplineRecord) -> SplineRecord:
         """The surface turned so that the loop that readers put around all of it meets its edges in their order.
 
         They begin at the side u = a, then come v = a, u = b and v = b.
@@ -130,16 +131,18 @@ class _Arrangement:
         poles = sorted(use.edge for use in loop if self._degenerated[use.edge])
         seam = next(use.edge for use in loop if use.edge not in poles)
         turned, axis = (surface.exchanged(), 0) if poles[0] < seam else (surface, 1)
-        first, last = (np.mean(self._uv(face, next(use for use in loop if use.edge == edge)), axis=0) for edge in poles)
+        ends = (self._uv(face, next(use for use in loop if use.edge == pole)) for pole in poles)
+        first, last = (np.mean(uv, axis=0) for uv in ends)
         backwards_now = (turned.matrix @ (last - first))[axis] < 0
         return turned.turned(axis) if backwards_now else turned
 
-    def _loop(self, face: Instance, wire: Reference) -> Loop:
+    def _loop(self, face: Instance, wire: ShapeReference) -> Loop:
         """The uses of a wire in the order in which they follow each other along the face."""
         place = product(face.place, self._locations.chain(wire.location))
-        uses = tuple(Use(self._number[Instance(child.shape, product(place, self._locations.chain(child.location)))],
-                         composed(wire.orientation, child.orientation), child)
-                     for child in self.brep.shapes[wire.shape].children)
+        stored = [(Instance(child.shape, product(place, self._locations.chain(child.location))), child)
+                  for child in self.brep.shapes[wire.shape].children]
+        uses = tuple(LoopEdge(self._number[edge], composed(wire.orientation, child.orientation), child)
+                     for edge, child in stored)
         return uses[::-1] if wire.orientation == "-" else uses
 
     def _chained(self, face: int, loop: Loop) -> Loop | None:
@@ -149,7 +152,7 @@ class _Arrangement:
         uv = [self._uv(face, use) for use in loop]
         return chained(loop, self._ends, np.array(uv)) if all(ends is not None for ends in uv) else None
 
-    def _uv(self, face: int, use: Use) -> Array | None:
+    def _uv(self, face: int, use: LoopEdge) -> Array | None:
         """Where a use begins and ends in the face's (u, v): (2, 2)."""
         surface = self._surface(face).surface
         item = next((item for item in self._curves(use.reference.shape).representations
@@ -167,11 +170,12 @@ class _Arrangement:
             turned = begun(loop, met, self._degenerated)
             if turned is None:
                 return None
-            result.append(turned)
+            # Of a face that closes on itself both ways readers turn the list round, not the loop.
+            result.append(turned[1:] + turned[:1] if self._is_ring(loop) else turned)
             met.update(use.edge for use in loop)
         return result
 
-    def _turn(self, face: int, surface: SurfaceRecord, loops: list[Loop]) -> None:
+    def _turn(self, face: int, surface: Plane | SplineRecord, loops: list[Loop]) -> None:
         """Give a face a turned surface; its pcurves follow, and its loops and its use where the normal turned too."""
         number = self._surface(face).surface
         self.brep.surfaces[number - 1] = surface.text()
@@ -183,7 +187,7 @@ class _Arrangement:
         if surface.reversed:
             self.faces.add(face)
 
-    def _on_turned(self, item: CurveOnSurface, surface: SurfaceRecord) -> CurveOnSurface:
+    def _on_turned(self, item: CurveOnSurface, surface: Plane | SplineRecord) -> CurveOnSurface:
         """A pcurve on a turned surface; of a seam's two the first belongs to the other use where that is turned."""
         records = [surface.pcurve(read_curve(self.brep.curves_2d[index - 1], 2), item.first, item.last)
                    for index in item.pcurves]
@@ -203,7 +207,7 @@ class _Arrangement:
         """Turn the edges whose vertices would change places."""
         met: set[int] = set()
         for edge, (first, last) in zip(self._instances.edges, self._ends, strict=True):
-            if last < first and not {first, last} & met and last >= 0 and edge.shape not in self.edges:
+            if 0 <= last < first and not {first, last} & met and edge.shape not in self.edges:
                 self._turn_edge(edge.shape)
             met.update((first, last))
 
@@ -237,7 +241,7 @@ def _rewritten(arrangement: _Arrangement) -> BrepText:
     turned = arrangement.faces | arrangement.edges
     written: dict[int, int] = {}
 
-    def used(child: Reference) -> Reference:
+    def used(child: ShapeReference) -> ShapeReference:
         orientation = other(child.orientation) if child.shape in turned else child.orientation
         return replace(child, orientation=orientation, shape=write(child.shape))
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import RefusedError
-from ...registration.splines import Array
+from ...registration.arrays import Array
 from .curve_fit import fit_curve
 from .curves import Conic, Curve, Line, Spline, mapped, print_curve, read_curve
 from .instances import Chain, EdgeUse, Instances, Locations, inverse, product
