@@ -20,28 +20,31 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from .. import _freecad
+from .. import find_freecad
 
-_freecad.activate()
+find_freecad.activate()
 
 _HOMES = {
     "..brep.model_files": ("Model",),
     "..brep.simulated_scan": ("Simulation",),
     "..errors": ("FfdsError", "InputError", "RefusedError"),
     "..registration.joint": ("SensorProfile",),
+    "..registration.request": ("RegistrationRequest",),
     "..scan.cloud": ("PointCloud",),
     "..scan.sensor": ("SensorSettings", "View"),
-    "..seams.carry": ("carry",),
+    "..seams.taught.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
     "..seams.plan": ("plan_seams",),
     "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
     "..seams.settings": ("SeamSettings",),
-    "..seams.writing": ("check_seam_outputs", "write_seams"),
+    "..seams.output.writing": ("check_seam_outputs", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
+    ".destinations": ("check_model_output", "check_outputs"),
     ".deviating": ("Deviation", "deviation"),
-    ".inputs": ("read_model", "read_scan"),
-    ".outputs": ("check_model_output", "check_outputs", "write", "write_deviation"),
-    ".registering": ("Result", "register"),
+    ".inputs": ("as_request", "read_model", "read_scan"),
+    ".methods": ("OtherSideError",),
+    ".outputs": ("write", "write_deviation"),
+    ".registering": ("Result", "register", "run"),
     ".sensors": ("measure_sensor", "write_sensor"),
     ".simulating": ("simulate", "write_simulation"),
 }

@@ -18,9 +18,11 @@ from ..registration.arrays import Array
 from ..registration.face import (displacement_lattice, equidistant_grid, nearest_neighbours, register_ffds,
                                  register_robust, solve_lattice)
 from ..registration.face_geometry import FaceGeometry
-from . import page, sheet, speed_whole
+from . import speed_whole
 from .interleaved import best_seconds, median_seconds
-from .page import Section, Table
+from .pages import page
+from .pages.page import Section, Table
+from .simulated import sheet
 
 Progress = Callable[[str], None]
 
@@ -29,8 +31,8 @@ SIZES = (100_000, 1_000_000, 5_000_000)
 _RADIUS, _LENGTH = 20.0, 60.0
 _ROUNDS = 4
 _ALONE = """
-from ffds_workbench import _freecad
-_freecad.activate()
+from ffds_workbench import find_freecad
+find_freecad.activate()
 from ffds_workbench.benchmark.speed import peak_megabytes
 print(peak_megabytes({}))
 """

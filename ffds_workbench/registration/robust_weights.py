@@ -1,16 +1,31 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Weights and spreads that outliers do not move."""
+"""Weights and spreads that outliers do not move: Tukey's biweight, the median absolute deviation, quantiles.
+
+The constants are theory: of a normal distribution the median absolute deviation is 1/1.4826 of the standard deviation,
+and Tukey's weights cut off at 4.685 standard deviations have 95 % of the mean's efficiency (Huber and Ronchetti, Robust
+Statistics, 2009).
+"""
 from __future__ import annotations
 
 import numpy as np
 
 from .arrays import Array
 
+MAD_TO_SIGMA = 1.4826
+"""Standard deviation over the median absolute deviation, of normal noise."""
+TUKEY_SIGMAS = 4.685
+"""Cut-off of Tukey's weights in standard deviations, for 95 % efficiency on normal noise."""
+
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:
     """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""
-    ratio = residual / cutoff
-    return np.where(np.abs(ratio) < 1.0, (1.0 - ratio * ratio) ** 2, 0.0)
+    share = np.minimum(np.square(residual / cutoff), 1.0)
+    return np.square(1 - share)
+
+
+def robust_sigma(residual: Array) -> float:
+    """Standard deviation of residuals about zero, from the median of their absolute values."""
+    return MAD_TO_SIGMA * float(np.median(np.abs(residual)))
 
 
 def quantile(values: Array, share: float) -> float:

@@ -15,6 +15,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from .arrays import Array
 from .normal_sides import orient_normals
 from .parallel import workers
+from .robust_weights import robust_sigma
 
 _POOL_SIZE = 40_000
 _POINT_COUNT, _FINER_FACTOR = 2_000, 4
@@ -233,6 +234,6 @@ def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) ->
         return None
     if area < 1.2 * shadow:
         return None
-    spread = 1.4826 * float(np.median(np.abs(height[best])))
+    spread = robust_sigma(height[best])
     normal = side * vectors[2]
     return Plane(normal, float(normal @ centre), float(np.clip(6.0 * spread, 1e-3 * tolerance, tolerance)))

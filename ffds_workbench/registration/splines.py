@@ -163,9 +163,3 @@ def _differentiate(points: Array, knots: Array, degree: int) -> tuple[Array, Arr
     span = knots[degree + 1 : -1] - knots[1 : -degree - 1]
     scale = np.divide(degree, span, out=np.zeros_like(span), where=span > 0)
     return np.diff(points, axis=0) * scale.reshape((-1,) + (1,) * (points.ndim - 1)), knots[1:-1]
-
-
-def same_basis(surface: SplineSurface, control_points: Array) -> SplineSurface:
-    """A spline on the knots of ``surface`` with other control points, (nu, nv, dim)."""
-    return SplineSurface(surface.knots_u, surface.knots_v, control_points, surface.degree_u, surface.degree_v,
-                         surface.periodic_u, surface.periodic_v)

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ffds_workbench import _freecad
+from ffds_workbench import find_freecad
 
-_freecad.activate()
+find_freecad.activate()
 
 import FreeCAD
 import Part

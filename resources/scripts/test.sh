@@ -47,6 +47,13 @@ else
     echo "== types: left out, numpy 2 describes its arrays in another way than numpy 1"
 fi
 step "tests in plain Python" "$python" -m pytest -q --ignore tests/gui "$@"
+kernels=$("$python" tests/other_kernels.py)
+if [ -n "$kernels" ]; then
+    step "numeric and B-rep tests once more, with OpenBLAS's kernels for $kernels" \
+        env OPENBLAS_CORETYPE="$kernels" "$python" -m pytest -q tests/registration tests/brep
+else
+    echo "== other kernels: left out, this processor or its BLAS has no others"
+fi
 step "tests in freecadcmd" freecadcmd -c \
     "import sys, pytest; sys.exit(pytest.main(['-q', 'tests/api', 'tests/brep', 'tests/objects', 'tests/report', 'tests/scan']))"
 step "tests in FreeCAD's GUI" timeout 1200 xvfb-run -a -s "-screen 0 1600x1000x24" freecad tests/gui/run_in_freecad.py

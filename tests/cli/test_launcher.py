@@ -37,7 +37,8 @@ def test_a_copy_among_freecads_modules_is_not_taken_for_ours(tmp_path):
         package.mkdir(parents=True)
         (package / "__init__.py").write_text("raise SystemExit(9)")
     found = subprocess.run(
-        [sys.executable, "-c", "import importlib.util, sys; from ffds_workbench import _freecad; _freecad.activate(); "
+        [sys.executable, "-c",
+         "import importlib.util, sys; from ffds_workbench import find_freecad; find_freecad.activate(); "
                                "del sys.modules['ffds_workbench']; "
                                "print(importlib.util.find_spec('ffds_workbench').origin)"],
         env={**os.environ, "PYTHONPATH": str(ROOT), "FREECAD_USER_HOME": str(tmp_path)}, cwd=tmp_path,

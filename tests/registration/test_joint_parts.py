@@ -17,8 +17,8 @@ from ffds_workbench.registration.joint.linear.dissection import dissect
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
-from ffds_workbench.registration.joint.surfaces.close_seams import close_seams
 from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
+from ffds_workbench.registration.joint.surfaces.seam_closing import close_seams
 
 SPAN, TURNING = 8.0, np.deg2rad(25)
 

@@ -11,6 +11,7 @@ from ...errors import RefusedError
 from .. import topology
 from . import step_colours
 from .read_back import ReadBack, compare
+from .reader import surface_types
 from .step_colours import Decoration
 from .step_free_shapes import with_free_shapes
 from .step_order import ordered
@@ -19,12 +20,8 @@ _MOST_UNCERTAIN = 0.001
 """Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
 
 
-def write(shape: Part.Shape, decoration: Decoration, kinds: list[str], path: Path) -> ReadBack:
+def write(shape: Part.Shape, decoration: Decoration, path: Path) -> ReadBack:
     """Write a STEP file with names and colours, and read it back.
-
-    Parameters
-    ----------
-    kinds : the types of the faces' surfaces
 
     Raises
     ------
@@ -37,7 +34,7 @@ def write(shape: Part.Shape, decoration: Decoration, kinds: list[str], path: Pat
     if not path.exists() or not step_colours.is_complete(path):
         raise RefusedError("The STEP file could not be written whole: is the disk full?")
     text = with_free_shapes(path.read_text("utf-8"), shape)
-    text = step_colours.decorate(text, decoration, kinds)
+    text = step_colours.decorate(text, decoration, surface_types(shape))
     path.write_text(step_colours.with_uncertainty(text, min(_tolerance(shape), _MOST_UNCERTAIN)), "utf-8")
     return compare(path.suffix.lower(), shape, topology.read(shape), Part.read(str(path)))
 

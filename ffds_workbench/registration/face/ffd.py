@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
+from ..robust_weights import robust_sigma
 from ..splines import SplineSurface, basis_matrix, basis_rows, clamped_knots, greville
 from . import ffds
 from .control_lattice import displacement_lattice
@@ -122,7 +123,7 @@ def register_ffd(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (10
     moved = solve_volume(volume, source, scan[nearest] - points)                     # step 4: ΔP = B⁺ Δp (Eq. 4)
     displacement = on_surface(volume, moved, face.surface, lattice)           # step 5: L(p) on the face (Eq. 1)
     residual = scan[nearest] - points - displacement.on_grid(u, v)[on_face]
-    noise = 1.4826 * float(np.median(np.abs(ffds.along_normal(face, u, v, on_face, residual))))
+    noise = robust_sigma(ffds.along_normal(face, u, v, on_face, residual))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...errors import RefusedError
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
+from ..robust_weights import robust_sigma
 from ..splines import DEGREE, tensor_product
 from ..trims import inside_trims
 from .control_lattice import ControlLattice, displacement_lattice
@@ -83,7 +84,7 @@ def _register(face: FaceGeometry, scan: Array, lattice: tuple[int, int], source_
     _check_determined(face, control, control_points, displacement_points, overshoot)
     displacement = control.field(control_points)                              # step 5: L̃(p) = Σ N N (P̃ + ΔP̃) (Eq. 2)
     residual = scan[nearest] - source - displacement.on_grid(u, v)[on_face]
-    noise = 1.4826 * float(np.median(np.abs(along_normal(face, u, v, on_face, residual))))
+    noise = robust_sigma(along_normal(face, u, v, on_face, residual))
     return FaceRegistration(face.name, displacement, len(np.unique(nearest)), coverage, noise)
 
 

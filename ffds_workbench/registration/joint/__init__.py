@@ -9,10 +9,9 @@ where lattices get finer, `outcome` whether the result is handed out; `live` is 
 """
 from .joint_result import EdgeRegistration, JointFace, JointRegistration, SolidMotion
 from .live import LiveJoint
-from .noise_model import SensorProfile
-from .part import JointPart, SharedEdge
-from .settings import JointSettings
+from .settings import JointSettings, SensorProfile
 from .solve import register_joint
+from .surfaces import JointPart, SharedEdge
 
 __all__ = ["EdgeRegistration", "JointFace", "JointPart", "JointRegistration", "JointSettings", "LiveJoint",
            "SensorProfile", "SharedEdge", "SolidMotion", "register_joint"]

@@ -9,9 +9,8 @@ from scipy.linalg import blas
 
 from ..arrays import Array, Index
 from .data import Borders, CellHeights
-from .priors import COMPONENTS
+from .priors import COMPONENTS, PriorTrust
 from .problem import Problem, ThicknessRows
-from .settings import PriorTrust
 from .surfaces import Jet, cubic, normals
 
 

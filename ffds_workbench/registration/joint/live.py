@@ -8,13 +8,13 @@ import numpy as np
 
 from ..arrays import Array
 from ..splines import SplineSurface
-from .part import JointPart
 from .prior_trust import update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .skins import candidate_outward_normals
 from .solve import gauss_newton_step
 from .state import State, start
+from .surfaces import JointPart
 
 _LEAST_SPAN = 30.0
 _SAMPLE_SIZE = 6000

@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import Array
+from .priors import PriorTrust
 from .problem import Problem
-from .settings import PriorTrust, Stage
+from .settings import Stage
 from .state import State
 from .surfaces import normals
 

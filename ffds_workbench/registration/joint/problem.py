@@ -14,11 +14,10 @@ from ...errors import RefusedError
 from ..arrays import Array, Index
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .linear import Pattern
-from .part import JointPart
-from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, Stiffness, contact_rows, find_pairs, make_couplings,
-                     make_stiffness)
-from .settings import JointSettings, PriorTrust
-from .surfaces import Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals
+from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs,
+                     make_couplings, make_stiffness)
+from .settings import JointSettings
+from .surfaces import JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0

@@ -7,8 +7,6 @@ from typing import Literal
 
 import numpy as np
 
-from .noise_model import SensorProfile
-
 
 @dataclass(frozen=True)
 class Stage:
@@ -36,19 +34,6 @@ class Stage:
     allowance: float = 1.0
 
 
-@dataclass(frozen=True)
-class PriorTrust:
-    """Factors on the weights of the priors: of isometry, of the thickness of sheets and their resistance to shear
-    through the thickness, of the angles of edges, and of what bends within a surface. Bending across it always has its
-    weight: it only keeps surfaces smooth."""
-
-    isometry: float = 1.0
-    thickness: float = 1.0
-    shear: float = 1.0
-    dihedral: float = 1.0
-    sliding: float = 1.0
-
-
 SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
             Stage(1, 1.2, 8, 0.04, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True),
             Stage(1, 0.6, 4, 0.02, soft=True, all_points=True, body=True))
@@ -60,6 +45,31 @@ def stages(schedule: tuple[Stage, ...], reach: float) -> tuple[Stage, ...]:
     return tuple(stage if stage.soft else replace(stage, gate=stage.gate * scale,
                                                   iterations=int(np.ceil(stage.iterations * scale)))
                  for stage in schedule)
+
+
+@dataclass(frozen=True)
+class SensorProfile:
+    """The noise of a sensor along the surface normal; a property of the sensor, measured once on a flat datum.
+
+    A single scan of a curved part cannot tell noise that neighbouring points share from shape.
+
+    Attributes
+    ----------
+    sigma : white noise in mm, or None to take it from the scan
+    sigma_c : correlated noise in mm: what neighbouring points share
+    correlation_length : in mm: the correlation falls as exp(−r²/2l²)
+    name : of the sensor
+    """
+
+    sigma: float | None = None
+    sigma_c: float = 0.0
+    correlation_length: float = 0.0
+    name: str = "white noise"
+
+    @property
+    def shared(self) -> float:
+        """∫ of the correlated noise's covariance over the surface, 2π l² σ_c², in mm⁴."""
+        return 2 * np.pi * self.correlation_length**2 * self.sigma_c**2
 
 
 @dataclass(frozen=True)

@@ -22,13 +22,12 @@ from .joint_result import JointRegistration
 from .lattice_refinement import faces_to_refine, transfer
 from .linear import solve_normal_equations
 from .outcome import refuse_unsound, summarise
-from .part import JointPart
 from .prior_trust import is_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .skins import candidate_outward_normals, choose_skin
 from .state import State, StepCache, start
-from .surfaces import Jet, close_seams
+from .surfaces import Jet, JointPart, close_seams
 from .uncertainty import misfit
 
 Progress = Callable[[str, float], None]

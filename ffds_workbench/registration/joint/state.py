@@ -13,8 +13,8 @@ from .assembly import strain_blocks
 from .body_field import BodyRows
 from .data import Borders, CellHeights, NearEdges, no_heights
 from .linear import FrontCholesky
+from .priors import PriorTrust
 from .problem import Problem, ThicknessRows
-from .settings import PriorTrust
 
 _TYPICAL_QUANTILE, _SEEN_QUANTILE = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Array
 from ..motions import angle, apply, twist_motion, twist_rows
 from ..parallel import workers
-from ..robust_weights import tukey
+from ..robust_weights import robust_sigma, tukey
 from ..scan_sketch import Sketch, thin
 from .deformation import STIFF_DEFORMATION_ROUNDS, DisplacementField, match_deformed, pose_of_deformed_part
 from .evidence import hides_sides
@@ -169,7 +169,7 @@ def _fit_pose(target: Target, points: Array, nearest: NDArray[np.intp], pose: Ar
     for _ in range(_STEPS_PER_ROUND):
         moved = apply(pose, points)
         height, normal = target.heights(moved, nearest)
-        cutoff = _CUTOFF_SIGMAS * max(1.4826 * float(np.median(np.abs(height))), 1e-6 * target.size)
+        cutoff = _CUTOFF_SIGMAS * max(robust_sigma(height), 1e-6 * target.size)
         update = gauss_newton(np.concatenate([moved, ends.places]) - target.centre,
                               np.concatenate([normal, ends.outwards]), np.concatenate([height, ends.gap]),
                               np.concatenate([tukey(height, cutoff), ends.weight]), target.size)

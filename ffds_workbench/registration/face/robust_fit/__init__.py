@@ -9,7 +9,8 @@ from .face_points import FacePoints, face_points
 from .lattice_size import automatic_lattice, coarse_lattice
 from .layers import dense_layers, rigid_start
 from .patches import main_patches, patches, proven
-from .raster_fit import RasterFit, RobustSettings
+from .raster_fit import RasterFit
+from .robust_settings import RobustSettings
 
 __all__ = ["FacePoints", "RasterFit", "RobustSettings", "automatic_lattice", "coarse_lattice", "dense_layers",
            "face_points", "main_patches", "patches", "proven", "rigid_start"]

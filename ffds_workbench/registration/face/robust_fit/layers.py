@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ...footpoints import SurfaceCoordinates
+from ...robust_weights import TUKEY_SIGMAS, tukey
 from ...uv_raster import Raster
 
 Index = NDArray[np.intp]
@@ -36,7 +37,6 @@ _SHEET_WINDOW = 4.0
 _FARTHER_PENALTY = 0.3
 """What a start at the end of the reach must explain more than one at the nominal, as a share."""
 _EXPECTED_TILT = 0.1
-_NOISE_CUT = 4.685
 
 
 @dataclass(frozen=True)
@@ -176,14 +176,9 @@ def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
 
 
 def _weights(layers: Layers, residual: Array, gate: float) -> Array:
-    gate = max(gate, _NOISE_CUT * layers.noise)
-    return tukey(residual, gate) * layers.outermost(residual, max(min(gate, _SHEET_WINDOW), _NOISE_CUT * layers.noise))
-
-
-def tukey(residual: Array, gate: float) -> Array:
-    """Tukey's weights (1 − (r / gate)²)² within the gate, 0 beyond it."""
-    share = np.minimum(np.square(residual / gate), 1.0)
-    return np.square(1 - share)
+    gate = max(gate, TUKEY_SIGMAS * layers.noise)
+    window = max(min(gate, _SHEET_WINDOW), TUKEY_SIGMAS * layers.noise)
+    return tukey(residual, gate) * layers.outermost(residual, window)
 
 
 def plateau(residual: Array, gate: float) -> Array:

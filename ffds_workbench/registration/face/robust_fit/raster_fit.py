@@ -15,18 +15,18 @@ from numpy.typing import NDArray
 from ...arrays import Array
 from ...face_geometry import FaceGeometry
 from ...footpoints import SurfaceCoordinates, joined, newton_in_cells
+from ...robust_weights import MAD_TO_SIGMA, TUKEY_SIGMAS, tukey
 from ...splines import SplineSurface, basis_matrix, tensor_product
 from ...uv_raster import Raster, dot
 from ..control_lattice import ControlLattice
 from .bending import bending_and_gauge, curvature_variation
 from .face_points import FacePoints
-from .layers import Layers, SmallMotion, plateau, tukey
+from .layers import Layers, SmallMotion, plateau
 from .normal_equations import LEAST_NOISE, grid_products, normal_matrix, offset_products, solve_banded
+from .robust_settings import RobustSettings
 
 Index = NDArray[np.intp]
 
-_NOISE_CUT = 4.685
-"""Tukey's constant: 95 % efficiency on normal noise."""
 _RIM_BLOCK = 8
 """Points near the trims are judged in blocks of 8 × 8 cells."""
 _STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
@@ -35,43 +35,10 @@ _STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
 _BENDING_SHARE, _EVEN_SHARE, _LONGEST_LENGTH = 0.1, 0.6, 20.0
 """Price of all bending and of uneven bending, as shares of what bending cost before; and the longest length in mm over
 which curvature is expected to change."""
-_MOST_NOISIER = 1.5
+_LARGEST_NOISE_GROWTH = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
 """Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
-
-
-@dataclass(frozen=True)
-class RobustSettings:
-    """Settings of `register_robust`.
-
-    Attributes
-    ----------
-    reach : largest distance in mm from the nominal at which a point may belong to the face
-    margin : points nearer than this (mm) to a trim, or to half the face's half width, carry no weight
-    curvature, length : expected bending of the displacement (1/mm) and the length over which it varies (mm); their
-        product squared is the variance that weighs the bending energy
-    gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
-    stiff : bending multiplier and gate in mm of the first steps, on all layers of the scan
-    soft : the same for the next ones, on the layers that hang together
-    final : the same for the last ones, on points instead of layers
-    sample : number of scan points that all steps but the last look at
-    """
-
-    reach: float = 15.0
-    margin: float = 0.7
-    curvature: float = 0.002
-    length: float = 10.0
-    gauge: float = 1e-2
-    stiff: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0))
-    soft: tuple[tuple[float, float], ...] = ((1e2, 1.5), (30, 1.2), (10, 1.0))
-    final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
-    sample: int = 12000
-
-    @property
-    def stiffness(self) -> float:
-        """Weight of the bending energy in chi-square units."""
-        return 1 / (self.curvature * self.length) ** 2
 
 
 @dataclass(frozen=True)
@@ -175,19 +142,20 @@ class RasterFit:
         gate : distance in mm at which a point loses its weight; never below 4.685 standard deviations
         """
         graph = self._graph(state)
-        gate = max(gate, _NOISE_CUT * noise)
+        gate = max(gate, TUKEY_SIGMAS * noise)
         seen = self._cells(graph, self._parts(graph, data, noise, gate), gate)
         mean = np.divide(seen.moment, seen.weight, out=np.zeros_like(seen.weight), where=seen.weight > 0)
         certainty = np.where(graph.usable, seen.weight, 0.0) / max(noise, LEAST_NOISE) ** 2
         row = graph.normal @ self.directions.T
         target = dot(graph.normal, state.d) + mean * graph.cosine
         control_points = self._solve(row, target, certainty, stiffness)
-        new_noise = min(1.4826 * float(np.median(seen.spread)), _MOST_NOISIER * noise) if len(seen.spread) else noise
+        measured = MAD_TO_SIGMA * float(np.median(seen.spread)) if len(seen.spread) else noise
+        new_noise = min(measured, _LARGEST_NOISE_GROWTH * noise)
         return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
     def look(self, state: FitState, layers: Layers, gate: float) -> tuple[Array, Array]:
         """Heights of layers over the surface of a state, and their weights about it."""
-        _, residual, weight = self._weighed(self._graph(state), layers, max(gate, _NOISE_CUT * layers.noise))
+        _, residual, weight = self._weighed(self._graph(state), layers, max(gate, TUKEY_SIGMAS * layers.noise))
         return residual, weight
 
     def field(self, state: FitState) -> SplineSurface:

@@ -15,9 +15,8 @@ from ...arrays import Array, Index
 from ...motions import apply, best_fit
 from ..assembly import NormalEquations, add_products, gather
 from ..data import Borders, CellHeights
-from ..priors import COMPONENTS, pose_weight
+from ..priors import COMPONENTS, PriorTrust, pose_weight
 from ..problem import Problem
-from ..settings import PriorTrust
 from ..surfaces import Jet, normals
 from .kriging import FieldModel, Observations, Pose, condition, most_likely_model
 

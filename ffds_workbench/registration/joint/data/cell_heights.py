@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array, Index
+from ...robust_weights import TUKEY_SIGMAS, robust_sigma, tukey
 from .correspondence import Correspondence
 
-_TUKEY = 4.685
 _MEDIAN_EFFICIENCY = 0.64
-_MAD = 1.4826
 _LEAST_POINTS_FOR_NOISE = 200
 
 
@@ -58,8 +57,7 @@ def tukey_mean_heights(found: Correspondence, cells: int, start: Array, face_of_
     ``start`` (faces,) is the noise to fall back on where a face has too few points to measure its own.
     """
     noise = face_noise(found, start, face_of_cell)
-    scaled = found.height / (_TUKEY * noise[face_of_cell[found.cell]])
-    weight = np.where(np.abs(scaled) < 1, (1 - scaled**2) ** 2, 0.0)
+    weight = tukey(found.height, TUKEY_SIGMAS * noise[face_of_cell[found.cell]])
     total = np.bincount(found.cell, weights=weight, minlength=cells)
     height = np.bincount(found.cell, weights=weight * found.height, minlength=cells) / np.maximum(total, 1e-9)
     height[total == 0] = 0.0
@@ -75,5 +73,5 @@ def face_noise(found: Correspondence, start: Array, face_of_cell: Index) -> Arra
     noise = start.copy()
     for k in np.flatnonzero(np.diff(bounds) >= _LEAST_POINTS_FOR_NOISE):
         height = found.height[order[bounds[k] : bounds[k + 1]]]
-        noise[k] = _MAD * np.median(np.abs(height - np.median(height)))
+        noise[k] = robust_sigma(height - np.median(height))
     return np.maximum(noise, 1e-6)

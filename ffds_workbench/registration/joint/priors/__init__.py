@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is assumed where the scan says nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
 edges, poles, thickness, edge angles, frozen faces), `sheet_pairs` (the two skins of a sheet), `contacts` (touching
-solids).
+solids), `trust_factors` (how far each prior counts).
 """
 from .contacts import contact_rows
 from .couplings import Couplings, SharedEdgePlaces, directions, make_couplings, pose_weight
 from .sheet_pairs import find_pairs, parameters
 from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
+from .trust_factors import PriorTrust
 
-__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "Couplings", "SharedEdgePlaces", "Stiffness", "contact_rows",
-           "directions", "find_pairs", "make_couplings", "make_stiffness", "parameters", "pose_weight"]
+__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "Couplings", "PriorTrust", "SharedEdgePlaces", "Stiffness",
+           "contact_rows", "directions", "find_pairs", "make_couplings", "make_stiffness", "parameters", "pose_weight"]

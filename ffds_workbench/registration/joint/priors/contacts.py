@@ -6,8 +6,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, vstack
 from scipy.spatial import cKDTree
 
-from ..part import JointPart
-from ..surfaces import Lattices, SpanGrid, normals, places_on_faces
+from ..surfaces import JointPart, Lattices, SpanGrid, normals, places_on_faces
 from .sheet_pairs import parameters
 
 _CONTACT_GAP = 0.05

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from scipy.sparse import bsr_matrix, csr_matrix, diags, vstack
 
 from ...arrays import Array, Index
-from ..part import JointPart
 from ..settings import JointSettings
-from ..surfaces import FacePlaces, Lattices, places_on_faces
+from ..surfaces import FacePlaces, JointPart, Lattices, places_on_faces
 from .sheet_pairs import SheetPairs
 
 _FROZEN_WEIGHT = 1e9

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array
-from ...robust_weights import quantile, tukey
+from ...robust_weights import MAD_TO_SIGMA, quantile, tukey
 from ..model import SurfaceSamples, Target, kept_with_target
 
 LARGEST_DEGREE = 4
@@ -184,7 +184,7 @@ class DisplacementObservations:
     @property
     def spread(self) -> float:
         """Standard deviation of what is left in mm, by its median."""
-        return 1.4826 * quantile(np.abs(self.residual), 0.5)
+        return MAD_TO_SIGMA * quantile(np.abs(self.residual), 0.5)
 
     def robust(self) -> Array:
         """Weights (n,) after those that are far off are left out."""

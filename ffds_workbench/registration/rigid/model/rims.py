@@ -96,11 +96,6 @@ class Rims:
             self._clear[depth] = self.tree.query(self.points - depth * self.outwards)[0] > 0.9 * depth
         return self._clear[depth]
 
-    @property
-    def length_of_stretch(self) -> float:
-        """In mm."""
-        return _STRETCH_POINTS * self.step
-
     @cached_property
     def _grid(self) -> tuple[Array, float, NDArray[np.int32]]:
         """Lower corner (3,) and edge length in mm of voxels, and the nearest point of each (nx, ny, nz), −1 where none
