@@ -12,7 +12,7 @@ import Part
 import pytest
 from FreeCAD import Vector
 
-from ffds_workbench.benchmark import topology_shapes
+from ffds_workbench.benchmark.simulated import topology_shapes
 from ffds_workbench.brep import topology, workpiece
 from ffds_workbench.brep.model_files import model_file
 from ffds_workbench.brep.model_files.model_file import Model

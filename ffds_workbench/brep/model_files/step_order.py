@@ -29,7 +29,7 @@ from ..occt_text.records import (
     dump,
     parse,
 )
-from ..occt_text.turned import Plane, SplineRecord, read_surface, turned_curve
+from ..occt_text.turned import PlaneRecord, SplineRecord, read_surface, turned_curve
 from .step_loops import Loop, LoopEdge, backwards, begun, chained, in_order, other
 
 
@@ -175,7 +175,7 @@ class _Arrangement:
             met.update(use.edge for use in loop)
         return result
 
-    def _turn(self, face: int, surface: Plane | SplineRecord, loops: list[Loop]) -> None:
+    def _turn(self, face: int, surface: PlaneRecord | SplineRecord, loops: list[Loop]) -> None:
         """Give a face a turned surface; its pcurves follow, and its loops and its use where the normal turned too."""
         number = self._surface(face).surface
         self.brep.surfaces[number - 1] = surface.text()
@@ -187,7 +187,7 @@ class _Arrangement:
         if surface.reversed:
             self.faces.add(face)
 
-    def _on_turned(self, item: CurveOnSurface, surface: Plane | SplineRecord) -> CurveOnSurface:
+    def _on_turned(self, item: CurveOnSurface, surface: PlaneRecord | SplineRecord) -> CurveOnSurface:
         """A pcurve on a turned surface; of a seam's two the first belongs to the other use where that is turned."""
         records = [surface.pcurve(read_curve(self.brep.curves_2d[index - 1], 2), item.first, item.last)
                    for index in item.pcurves]

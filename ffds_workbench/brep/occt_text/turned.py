@@ -65,15 +65,15 @@ class Turned:
 
 
 @dataclass(frozen=True)
-class Plane(Turned):
+class PlaneRecord(Turned):
     """A plane: rows of ``frame`` (4, 3) are origin, normal, x and y."""
 
     frame: Array
 
-    def turned(self) -> Plane:
+    def turned(self) -> PlaneRecord:
         """With v the other way."""
         sign = np.array([1.0, -1.0])
-        return Plane(sign[:, None] * self.matrix, sign * self.shift, self.frame * np.array([[1.0, -1.0, 1.0, -1.0]]).T)
+        return PlaneRecord(sign[:, None] * self.matrix, sign * self.shift, self.frame * np.array([[1.0, -1.0, 1.0, -1.0]]).T)
 
     def text(self) -> str:
         """The record."""
@@ -110,11 +110,11 @@ class SplineRecord(Turned):
         return "\n".join([head, numbers_text(self.poles), u.text(), v.text()])
 
 
-def read_surface(record: str) -> Plane | SplineRecord | None:
+def read_surface(record: str) -> PlaneRecord | SplineRecord | None:
     """The surface of a record as it is; None where it is neither a plane nor a B-spline, and cannot be turned."""
     tokens = record.split()
     if tokens[0] == _PLANE:
-        return Plane(np.eye(2), np.zeros(2), np.array(tokens[1:], dtype=float).reshape(4, 3))
+        return PlaneRecord(np.eye(2), np.zeros(2), np.array(tokens[1:], dtype=float).reshape(4, 3))
     if tokens[0] != _SPLINE:
         return None
     counts = [int(token) for token in tokens[7:11]]
