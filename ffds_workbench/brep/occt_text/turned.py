@@ -73,7 +73,8 @@ class PlaneRecord(Turned):
     def turned(self) -> PlaneRecord:
         """With v the other way."""
         sign = np.array([1.0, -1.0])
-        return PlaneRecord(sign[:, None] * self.matrix, sign * self.shift, self.frame * np.array([[1.0, -1.0, 1.0, -1.0]]).T)
+        frame = self.frame * np.array([[1.0, -1.0, 1.0, -1.0]]).T
+        return PlaneRecord(sign[:, None] * self.matrix, sign * self.shift, frame)
 
     def text(self) -> str:
         """The record."""
