@@ -12,8 +12,8 @@ import Part
 from ..brep.model_files import Model, model_file
 from ..errors import InputError
 from ..registration.request import RegistrationRequest
-from ..scan import files as scan_files
 from ..scan import sensor_profile
+from ..scan import files as scan_files
 from ..scan.cloud import PointCloud
 
 

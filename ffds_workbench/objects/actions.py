@@ -13,10 +13,11 @@ from .. import RESOURCES, api
 from ..brep.model_files import model_file
 from ..errors import InputError
 from ..output import check_writable, replacing
-from . import alignment, scans, simulation, views
+from . import scans, views
 from .as_built import AsBuilt, apply_request, is_as_built, request_of
-from .job import Job, make_job
-from .manual_alignment import align_by_points
+from .jobs import alignment_job, simulation_job
+from .jobs.manual_alignment import align_by_points
+from .jobs.registration_job import Job, make_job
 from .repointing import repoint
 from .seams import add_trajectories, export_program, make_seams
 from .sources import standing_for
@@ -55,7 +56,7 @@ def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
     scans.scan_points(scan)
     if scan.getParentGeoFeatureGroup() is not None:
         raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
-    aligned = alignment.find(source, scan, mode)
+    aligned = alignment_job.find(source, scan, mode)
     scans.set_points(scan, aligned.scan.points, aligned.scan.normals)
     return scan
 
@@ -127,7 +128,7 @@ def simulate_scan(source: Any, spacing: float = 0.5, noise: float = 0.05,
     """Scan a part with the virtual sensor: a Points object. ``views`` are directions from the part to the camera; none:
     the whole surface is seen. Lengths in mm."""
     source = standing_for(source)
-    points = wait_for(source.Label, simulation.prepare(source, spacing, noise, views, outliers, seed))
+    points = wait_for(source.Label, simulation_job.prepare(source, spacing, noise, views, outliers, seed))
     return scans.add_scan(source.Document, points, f"{source.Label} scanned")
 
 

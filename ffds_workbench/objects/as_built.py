@@ -10,12 +10,11 @@ import FreeCAD
 import numpy as np
 
 from ..errors import InputError
-from ..registration.request import (ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST,
-                                   RegistrationRequest)
+from ..registration.request import ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST, RegistrationRequest
 from ..report.table import doubts
 from .boolean_check import LOST, RUNNING, follow
 from .feature import HIDDEN, OUTPUT, READ_ONLY, Feature, Property
-from .job import Job, make_job
+from .jobs.registration_job import Job, make_job
 from .lattices import Lattice, draw_lattices
 from .signatures import found_again, signatures
 from .waiting import wait_for

@@ -10,7 +10,7 @@ import pytest
 from ffds_workbench.api import registering
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.objects import actions, scans
-from ffds_workbench.objects.job import job_on, make_job
+from ffds_workbench.objects.jobs.registration_job import job_on, make_job
 from ffds_workbench.registration.request import RegistrationRequest
 from ffds_workbench.scan.cloud import PointCloud
 from ffds_workbench.scan.sensor.files import write_ply

@@ -98,7 +98,7 @@ def _replace(scan: Any, paths: list[str], unit: str) -> None:
     """Compute what depends on the scan in the background, then replace it in one undo step."""
     from ...api import read_scan
     from ...objects.as_built import is_as_built, request_of
-    from ...objects.job import job_on
+    from ...objects.jobs.registration_job import job_on
     from ...objects.scans import as_stored
 
     cloud = as_stored(scan, read_scan(paths, unit))

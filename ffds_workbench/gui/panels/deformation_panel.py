@@ -10,7 +10,7 @@ import numpy as np
 from ...api.methods import OtherSideError
 from ...errors import FfdsError, InputError
 from ...objects.as_built import is_as_built, request_of
-from ...objects.job import Job, make_job
+from ...objects.jobs.registration_job import Job, make_job
 from ...objects.sources import Source, standing_for
 from ...registration.request import RegistrationRequest
 from .. import running

@@ -20,7 +20,7 @@ from ...registration.uv_raster import Raster, make_raster
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_FAR, _FAR_MEDIANS = 1.0, 8.0
+_LEAST_FAR, _FAR_MEDIANS = 1.0, 8.0
 """Points farther from the deformed face than this (mm), and than so many times the median, are not its own."""
 _OUTLINE = 129
 """Points of a drawn trim."""
@@ -74,7 +74,7 @@ class Deviations:
 
 def farthest_of(deviations: Array) -> float:
     """Distance in mm at which a point is not the part's own, by the deviations (k,) of all."""
-    return max(_FAR, _FAR_MEDIANS * float(np.median(np.abs(deviations)))) if len(deviations) else _FAR
+    return max(_LEAST_FAR, _FAR_MEDIANS * float(np.median(np.abs(deviations)))) if len(deviations) else _LEAST_FAR
 
 
 class FaceOnScan:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ...objects.job import Job
+from ...objects.jobs.registration_job import Job
 from .. import running
 from ..qt import QtCore
 from ..translating import tr
