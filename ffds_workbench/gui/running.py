@@ -84,7 +84,7 @@ def _listing(title: str, sentences: Sequence[str], standard: Any) -> Any:
     column = QtWidgets.QVBoxLayout(dialog)
     column.addWidget(listed)
     column.addWidget(buttons)
-    dialog.resize(600, 260)
+    dialog.resize(600, 90 + 40 * min(len(sentences), 8))
     return dialog
 
 

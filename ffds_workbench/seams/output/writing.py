@@ -88,7 +88,8 @@ def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]
 
 def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
     """What the user must know of the programs of a plan, as sentences; known before they are written."""
-    failing = [seam.name for seam in plan.seams if seam.exceeded(plan.limits)]
+    failing = [f"{seam.name} ({', '.join(exceeded)})" for seam in plan.seams
+               if (exceeded := seam.exceeded(plan.limits))]
     notes = []
     if failing and robot.keep_failing:
         notes.append(f"Beyond their limits, and in the programs all the same: {', '.join(failing)}.")
