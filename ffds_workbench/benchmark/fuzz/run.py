@@ -156,7 +156,7 @@ def _command(folder: Path, row: Row, content: bytes) -> None:
 
 def _write(folder: Path, rows: list[Row]) -> str:
     cells = [(row.kind, str(row.tried), str(row.outcomes["taken"]), str(row.outcomes["refused"]),
-              "; ".join(f"{count} {what}" for what, count in row.outcomes.items() if what not in _GOOD and count) or "–",
+              "; ".join(f"{n} {what}" for what, n in row.outcomes.items() if n and what not in _GOOD) or "–",
               f"{row.slowest:.2f}", f"{row.memory:.0f}") for row in rows]
     table = page.Table("Damaged files", ("kind", "files", "taken", "refused", "failed", "slowest, s", "memory, MB"),
                        cells)
