@@ -35,7 +35,7 @@ _GOOD = ("taken", "refused")
 
 
 @dataclass
-class Row:
+class FuzzRow:
     """What became of the files of one kind.
 
     Attributes
@@ -72,9 +72,9 @@ def run(folder: Path, progress: Progress, scans: int = 2000, models: int = 20, s
     """
     folder = folder.resolve()
     (folder / "failures").mkdir(exist_ok=True)
-    rows: list[Row] = []
+    rows: list[FuzzRow] = []
     for kind in kinds.in_process():
-        rows.append(Row(kind))
+        rows.append(FuzzRow(kind))
         count = scans if kind.startswith("scan") else -(-scans // 100)
         while rows[-1].tried < count:
             progress(f"{kind}: {rows[-1].tried} of {count}")
@@ -82,7 +82,7 @@ def run(folder: Path, progress: Progress, scans: int = 2000, models: int = 20, s
             _write(folder, rows)
     (folder / "scan.ply").write_bytes(seeds.ply(seeds.measured(), "binary_little_endian"))
     for kind in kinds.by_command() if models else ():
-        rows.append(Row(kind))
+        rows.append(FuzzRow(kind))
         for index in range(models):
             progress(f"{kind}: {index} of {models}")
             _command(folder, rows[-1], kinds.damaged(kind, index, seed))
@@ -93,7 +93,7 @@ def run(folder: Path, progress: Progress, scans: int = 2000, models: int = 20, s
     return _write(folder, rows)
 
 
-def _batch(folder: Path, row: Row, count: int, seed: int) -> None:
+def _batch(folder: Path, row: FuzzRow, count: int, seed: int) -> None:
     """Have a worker read a batch; where a file takes it along or does not end, the batch ends there."""
     first, at = row.tried, folder / "at"
     at.write_text(str(first))
@@ -121,7 +121,7 @@ def _batch(folder: Path, row: Row, count: int, seed: int) -> None:
     shutil.copy(folder / f"file{suffix}", folder / "failures" / f"{row.kind.replace(' ', '-')}-{index}{suffix}")
 
 
-def _command(folder: Path, row: Row, content: bytes) -> None:
+def _command(folder: Path, row: FuzzRow, content: bytes) -> None:
     """Give a model to the command line."""
     path = folder / f"file{kinds.suffix(row.kind)}"
     path.write_bytes(content)
@@ -154,7 +154,7 @@ def _command(folder: Path, row: Row, content: bytes) -> None:
     row.add({outcome: 1}, slowest, memory)
 
 
-def _write(folder: Path, rows: list[Row]) -> str:
+def _write(folder: Path, rows: list[FuzzRow]) -> str:
     cells = [(row.kind, str(row.tried), str(row.outcomes["taken"]), str(row.outcomes["refused"]),
               "; ".join(f"{n} {what}" for what, n in row.outcomes.items() if n and what not in _GOOD) or "–",
               f"{row.slowest:.2f}", f"{row.memory:.0f}") for row in rows]
