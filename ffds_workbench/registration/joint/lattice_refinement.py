@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Finer lattices where the data ask for them: where what is left in the cells is more than the noise explains."""
+"""Finer lattices where the data ask for them: where the residuals of the cells are larger than the noise explains."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -36,7 +36,7 @@ def faces_to_refine(problem: Problem, state: State) -> dict[int, int]:
 
 
 def patch_ratios(problem: Problem, state: State) -> tuple[Array, Array]:
-    """Squared means of what is left in patches of cells over their variance from noise, and the faces: (n,) each."""
+    """Squared mean residuals of patches of cells over their variance from noise, and the patches' faces: (n,) each."""
     per_span = int(np.sqrt(problem.cells.inside.shape[1]))
     size = max(1, per_span // _PATCHES_PER_SPAN)
     count = per_span // size
@@ -72,7 +72,7 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:
-    """As many places within the bounds: Greville abscissae of an unclamped lattice lie outside them."""
+    """Interpolation sites within the bounds: some Greville abscissae of an unclamped lattice lie outside."""
     return np.unique(np.clip(np.concatenate([places, np.linspace(*bounds, len(places))]), *bounds))
 
 

@@ -17,8 +17,8 @@ from .priors import PriorTrust
 from .problem import Problem, ThicknessRows
 
 _TYPICAL_QUANTILE, _SEEN_QUANTILE = 0.75, 0.4
-"""Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
-the scan shows the part, or, where a table fills it, some of the part is seen."""
+"""How far the part has moved is the smaller of two quantiles: of the distances from the scan to the nominal part, since
+most of the scan shows the part, and of those from the part to the scan, since a table may fill the scan."""
 _REACH_FACTOR = 1.5
 _LEAST_REACH = 3.0
 
@@ -80,7 +80,7 @@ class State:
 
 
 def fresh_cache(problem: Problem, control_points: Array) -> StepCache:
-    """What a first step on a shape uses."""
+    """The cache for a first step on a shape."""
     return StepCache(strain_blocks(problem, control_points), problem.thickness_rows(control_points))
 
 
