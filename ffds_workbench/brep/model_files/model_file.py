@@ -23,7 +23,8 @@ from .step_colours import Decoration
 _EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 _DOCUMENT = ".fcstd"
 _MOST_UNCERTAIN = 0.001
-"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
+"""Upper bound (mm) of the uncertainty written into a STEP file, whatever the tolerances: readers drop edges shorter
+than it."""
 FORMATS = ".step .stp .iges .igs .brep .FCStd"
 OUTPUT_FORMATS = (".step", ".stp", ".brep", _DOCUMENT)
 

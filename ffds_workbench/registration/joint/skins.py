@@ -95,7 +95,7 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
 
 
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
-    """The right one of two fits of a sheet, to either of its skins; a single fit as it is.
+    """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
     Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
     did not move far more.
@@ -129,8 +129,8 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
 
 
 def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
-    """Cost in chi-square units, points of the sample that are matched, scan points on faces that are no skin, and mean
-    movement of all matched ones along the normals in mm."""
+    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
+    scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     found = correspond(problem.scan, frames, 4 * problem.statistics.noise)
@@ -143,7 +143,8 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
 
 
 def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tuple[list[Array], Array]:
-    """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
+    """Sign of every piece of the sketch, from what it finds on the nominal part: +1, −1, or 0 where it is undecided:
+    (pieces,).
 
     With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
     Where a large piece is in doubt, its other sign comes second, with those of all others that are in doubt. What is
@@ -170,7 +171,7 @@ def _clearly_less(first: NDArray[np.number], second: NDArray[np.number], factor:
 
 
 def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _AGREEMENT) -> Array:
-    """The signs (n,) of most points of every smooth piece for all of it: 0 where they contradict each other.
+    """One sign for each smooth piece, that of most of its points, 0 where they contradict each other: (n,).
 
     Signs carried around the edge of a thin sheet may go astray; across a smooth surface they do not.
     """
@@ -189,7 +190,7 @@ def _cosines(sketch: SkinPoints, nearest: Index, given: Array) -> Array:
 
 
 def _signs_of_scan_normals(pieces: tuple[Index, Array], cosine: Array, sure: Array) -> Array:
-    """Signs (n,) that the scan's normals give to the sketch's, 0 where they tell nothing.
+    """Signs (n,) that the scan's normals give to the sketch's, 0 where they do not decide.
 
     They point out of the material, or all into it: then the sides that are ``sure`` (n,) from the points contradict
     them. Where these contradict a part of them, or neighbours do each other, nobody knows what they mean.
