@@ -59,10 +59,10 @@ def read_inputs(options: argparse.Namespace, progress: Progress) -> tuple[api.Mo
     """The model and the scan."""
     from .. import api
 
-    progress(f"Reading {options.model}")
-    model = api.read_model(options.model, options.object)
     progress(f"Reading {', '.join(map(str, options.scan))}")
-    return model, api.read_scan(options.scan, options.scan_unit)
+    scan = api.read_scan(options.scan, options.scan_unit)
+    progress(f"Reading {options.model}")  # it has been under way since the command began
+    return api.read_model(options.model, options.object), scan
 
 
 def _lattice(text: str) -> tuple[int, int] | str:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import NoReturn, TextIO
 
 from .. import RESOURCES, __version__
+from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from . import align, benchmark, seams, sensor, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
@@ -40,6 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         return _fail(sys.stderr, error)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for name, label in (("model", getattr(options, "object", None)), ("nominal", None), ("as_built", None)):
+        if isinstance(path := getattr(options, name, None), Path):
+            reading.begin(path, label)  # beside what else there is to load
     with quiet_libraries() as (out, err):
         progress = ProgressLine(err)
         try:

@@ -8,14 +8,15 @@ checksum that is not part of either.
 from __future__ import annotations
 
 import struct
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
+from .. import xml_text
 
 Array = NDArray[np.float64]
 
@@ -90,11 +91,9 @@ def read(path: Path) -> Array:
             raise ValueError("the file is cut off")
         content = _Content(data[:length], page)
         text = content.bytes(content.logical(xml_offset), xml_length)
-        if b"<!DOCTYPE" in text.replace(b"\0", b""):  # entities may stand for far more text than the file holds
-            raise ValueError("the text declares a type")
-        root = ElementTree.fromstring(text)
+        root = xml_text.parse(text)
         scans = [_scan(content, scan) for scan in root.iterfind(f"{_NAMESPACE}data3D/{_NAMESPACE}vectorChild")]
-    except (ValueError, LookupError, TypeError, OverflowError, struct.error, ElementTree.ParseError) as error:
+    except (ValueError, KeyError, TypeError, OverflowError, struct.error) as error:
         raise InputError(f"The scan {path} is damaged or cut off: its E57 sections cannot be read.") from error
     return np.concatenate([np.empty((0, 6)), *scans])
 
@@ -116,7 +115,7 @@ class _Content:
         return self._data[start : start + length]
 
 
-def _scan(content: _Content, scan: ElementTree.Element) -> Array:
+def _scan(content: _Content, scan: Element) -> Array:
     """One scan's points and normals in the common frame of the file."""
     points = scan.find(f"{_NAMESPACE}points")
     prototype = None if points is None else points.find(f"{_NAMESPACE}prototype")
@@ -142,7 +141,7 @@ def _scan(content: _Content, scan: ElementTree.Element) -> Array:
     return np.hstack([local @ rotation.T + translation, normals @ rotation.T])
 
 
-def _field(item: ElementTree.Element) -> _Field:
+def _field(item: Element) -> _Field:
     name = item.tag.removeprefix(_NAMESPACE)
     if item.get("type") == "Float":
         return _Field(name, 32 if item.get("precision") == "single" else 64, True)
@@ -187,7 +186,7 @@ def _from_spherical(distance: Array, azimuth: Array, elevation: Array) -> Array:
     return np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), distance * np.sin(elevation)], axis=1)
 
 
-def _motion(pose: ElementTree.Element | None) -> tuple[Array, Array]:
+def _motion(pose: Element | None) -> tuple[Array, Array]:
     """Rotation (3, 3) by the pose's unit quaternion, and its translation (3,)."""
     if pose is None:
         return np.eye(3), np.zeros(3)
@@ -198,7 +197,7 @@ def _motion(pose: ElementTree.Element | None) -> tuple[Array, Array]:
     return rotation, np.array([_number(pose, "translation", axis, 0.0) for axis in "xyz"])
 
 
-def _number(pose: ElementTree.Element, part: str, axis: str, default: float) -> float:
+def _number(pose: Element, part: str, axis: str, default: float) -> float:
     group = pose.find(f"{_NAMESPACE}{part}")
     item = None if group is None else group.find(f"{_NAMESPACE}{axis}")
     if group is None:
