@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import bsr_matrix, csr_matrix
-from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .linear import Pattern
+from .lengths import Lengths, find_lengths
 from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs,
                      make_couplings, make_stiffness)
 from .settings import JointSettings
@@ -55,6 +54,8 @@ class Problem:
     constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending across
         the surfaces and within them, of the distance of opposite skins in all directions, of sharp edges
     sides : where the faces lie at their edges
+    lengths : of the solve
+    distance_to_nominal : (n,) of the points of the sample, in mm; infinite beyond the size of the part
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
 
@@ -73,6 +74,8 @@ class Problem:
     constant: Array
     sides: EdgeSides
     margin: Array
+    lengths: Lengths
+    distance_to_nominal: Array
     sample_normals: Array | None = None
 
     def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
@@ -83,16 +86,10 @@ class Problem:
             return known
         return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
-    @cached_property
+    @property
     def size(self) -> float:
         """Diagonal of the box around the nominal cells, in mm."""
-        return float(np.linalg.norm(np.ptp(self.cells.nominal.position[self.cells.inside], axis=0)))
-
-    @cached_property
-    def distance_to_nominal(self) -> Array:
-        """How far the points of the sample lie from the nominal part, in mm; infinite beyond its size: (n,)."""
-        tree = cKDTree(self.cells.nominal.position[self.cells.inside])
-        return np.asarray(tree.query(self.sample, distance_upper_bound=self.size, workers=-1)[0])
+        return self.lengths.size
 
     @property
     def face_of_cell(self) -> Index:
@@ -136,8 +133,9 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    lengths, apart = find_lengths(cells, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
-                               len(scan) / statistics.noise**2)
+                               len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
@@ -148,7 +146,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
                    edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths, apart,
                    None if scan_normals is None else scan_normals[pick])
 
 
