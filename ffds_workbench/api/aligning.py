@@ -18,9 +18,11 @@ from ..output import replacing
 from ..registration.motions import describe_difference
 from ..registration.request import ALIGNMENTS
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
+from ..registration.rigid.unit_mismatch import unit_by_size
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
+from ..scan.plausibility import wrong_unit
 from ..scan.sensor.files import write_ply
 from ..scan.units import MILLIMETRES
 from .destinations import destinations
@@ -59,8 +61,8 @@ class AlignedScan:
                       "Which one    nothing in the scan tells: turn it about as it should lie and align it with mode "
                       "fine, or scan more of the part"]
         if found.scale != 1.0:
-            lines.append(f"Unit         the scan is in {found.unit}: its coordinates were multiplied by "
-                         f"{found.scale:g}")
+            lines.append(f"Unit         the scan is in {found.unit}, or the model's file declares a wrong unit: the "
+                         f"scan's coordinates were multiplied by {found.scale:g}")
         if found.table:
             lines.append("Table        a plane beside the part was left out")
         return "\n".join(lines)
@@ -89,11 +91,13 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         cloud = as_cloud(scan)
-        target = _target_of(as_model(model).shape)
+        nominal = as_model(model)
+        target = _target_of(nominal.shape)
     with watch.stage("align", "Aligning the scan"):
         found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3],
                                    mode if start is None else "local"))
     if found.verdict == FAILED:
+        _refuse_unit(cloud, nominal)
         raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "
                            f"part, or leave other objects out.")
     unit = found.unit if found.scale != 1.0 and found.unit in MILLIMETRES else cloud.unit
@@ -126,6 +130,14 @@ def _target_of(shape: Part.Shape) -> Target:
     target = target_of([part.geometry(index) for index in range(len(part.faces))])
     _TARGETS.appendleft((shape, target))
     return target
+
+
+def _refuse_unit(scan: PointCloud, model: Model) -> None:
+    """Refuse a scan that fits the model in no pose, and whose size speaks for another unit (InputError)."""
+    size = model.shape.BoundBox.DiagonalLength
+    factor = unit_by_size(scan.points, size)
+    if factor is not None:
+        raise InputError(wrong_unit(scan, size, factor, model.unit))
 
 
 def _start_pose(start: np.ndarray | None) -> np.ndarray:

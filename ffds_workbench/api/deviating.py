@@ -15,8 +15,7 @@ from ..report import record, table
 from ..report.deviation import FaceDeviation, measure, reach_of
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
-from ..scan.plausibility import check_overlap
-from .inputs import as_cloud, as_model, box
+from .inputs import as_cloud, as_model, check_place
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ def deviation(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray,
         used = as_model(model)
         cloud = as_cloud(scan)
         part = workpiece.read(used.shape)
-        check_overlap(cloud, *box(used.shape))
+        check_place(cloud, used)
     with watch.stage("deviation", "Measuring the deviation"):
         geometries = [part.geometry(index) for index in range(len(part.faces))]
         faces = tuple(measure(geometries, cloud.points, reach_of(used.shape.BoundBox.DiagonalLength)))

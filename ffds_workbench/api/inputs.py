@@ -10,11 +10,13 @@ import numpy as np
 import Part
 
 from ..brep.model_files import Model, model_file
+from ..brep.surface_samples import surface_samples
 from ..errors import InputError
 from ..registration.request import RegistrationRequest
 from ..scan import sensor_profile
 from ..scan import files as scan_files
 from ..scan.cloud import PointCloud
+from ..scan.plausibility import check_overlap
 
 
 def read_scan(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
@@ -70,6 +72,11 @@ def as_request(faces: Sequence[str] | None = None, **settings: Any) -> Registrat
         return RegistrationRequest(**plain)
     except TypeError as unknown:
         raise InputError(f"A registration has no such setting: {unknown}.") from None
+
+
+def check_place(scan: PointCloud, model: Model) -> None:
+    """Refuse a scan that cannot be one of the model where it lies, or that is in another unit; see `check_overlap`."""
+    check_overlap(scan, *box(model.shape), lambda: surface_samples(model.shape), model.unit)
 
 
 def box(shape: Part.Shape) -> tuple[np.ndarray, np.ndarray]:

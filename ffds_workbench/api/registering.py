@@ -24,9 +24,8 @@ from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
-from ..scan.plausibility import check_overlap
 from .aligning import AlignedScan, align_scan
-from .inputs import as_cloud, as_model, as_request, box
+from .inputs import as_cloud, as_model, as_request, check_place
 from .methods import Deformation, check_names, find_deformation
 
 BOOLEAN_CHECK_SECONDS = 10.0
@@ -177,7 +176,7 @@ def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: 
         check_names(part, request)
     aligned = None if request.align == "none" else align_scan(nominal, cloud, request.align, progress)
     cloud = cloud if aligned is None else aligned.scan
-    check_overlap(cloud, *box(nominal.shape))
+    check_place(cloud, nominal)
     found = find_deformation(part, cloud, request, watch)
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)

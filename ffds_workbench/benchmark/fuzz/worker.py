@@ -13,7 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...brep.surface_samples import surface_samples
 from ...errors import FfdsError
+from ...registration.arrays import Array
 from ...scan import files
 from ...scan.plausibility import check_overlap
 from ...seams.taught.carry import carry
@@ -31,6 +33,7 @@ def main() -> None:
     folder, kind, first, count, seed = Path(sys.argv[1]), sys.argv[2], *map(int, sys.argv[3:6])
     path, at = folder / f"file{kinds.suffix(kind)}", folder / "at"
     plate = seeds.plate()
+    samples = surface_samples(plate)
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, resource.RLIM_INFINITY))
     outcomes: Counter[str] = Counter()
@@ -40,7 +43,7 @@ def main() -> None:
             path.write_bytes(kinds.damaged(kind, index, seed))
             at.write_text(str(index))
             begin = time.process_time()
-            outcome = _outcome(kind, path, plate)
+            outcome = _outcome(kind, path, plate, samples)
             slowest = max(slowest, time.process_time() - begin)
             outcomes[outcome] += 1
             if outcome not in ("taken", "refused"):
@@ -49,11 +52,11 @@ def main() -> None:
     print(json.dumps({"outcomes": outcomes, "slowest": slowest, "memory": peak}))
 
 
-def _outcome(kind: str, path: Path, plate: object) -> str:
+def _outcome(kind: str, path: Path, plate: object, samples: tuple[Array, Array]) -> str:
     """"taken", "refused", or what is wrong with the answer."""
     try:
         if kind.startswith("scan"):
-            check_overlap(files.read(path), _LOW, _HIGH)
+            check_overlap(files.read(path), _LOW, _HIGH, lambda: samples)
         else:
             carry(plate, plate, path, path.with_name(f"new{path.suffix}"))
     except FfdsError as error:

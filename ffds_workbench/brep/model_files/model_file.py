@@ -37,11 +37,13 @@ class Model:
     shape : Part.Shape
     label : the name of the product or of the document object
     decoration : names and colours of its faces and solids
+    unit : the unit that its file declared, "" for mm; the shape is in mm all the same
     """
 
     shape: Part.Shape
     label: str
     decoration: Decoration = Decoration()
+    unit: str = ""
 
 
 def read(path: str | Path, label: str | None = None) -> Model:
@@ -72,7 +74,7 @@ def read(path: str | Path, label: str | None = None) -> Model:
         content = reader.read(path, label)
         return _checked(path, Model(content.shape, content.label, content.decoration))
     shape, about = reading.content(path, label)
-    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])), about["valid"])
+    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"]), about["unit"]), about["valid"])
 
 
 def _decoration(about: Mapping[str, Any]) -> Decoration:

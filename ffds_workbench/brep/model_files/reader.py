@@ -32,11 +32,12 @@ _PLAIN_NAME = re.compile(r"[^/\\:]+")
 
 @dataclass(frozen=True)
 class FileContent:
-    """What a file holds: a shape, its name, and the names and colours of its faces and solids."""
+    """What a file holds: a shape, its name, the names and colours of its faces and solids, the unit it declares."""
 
     shape: Part.Shape
     label: str
     decoration: Decoration = Decoration()
+    unit: str = ""
 
 
 def read(path: Path, label: str | None) -> FileContent:
@@ -53,7 +54,7 @@ def write(content: FileContent, folder: Path) -> None:
     """Write what was read as ``shape.bin`` and ``about.json``, as `reading` takes it up."""
     if not content.shape.isNull():
         content.shape.exportBinary(str(folder / "shape.bin"))
-    about = {"label": content.label, "decoration": asdict(content.decoration),
+    about = {"label": content.label, "decoration": asdict(content.decoration), "unit": content.unit,
              "valid": not content.shape.isNull() and content.shape.isValid()}
     (folder / "about.json").write_text(json.dumps(about), "utf-8")
 
@@ -66,8 +67,9 @@ def _read_exchange(path: Path) -> FileContent:
         raise InputError(f"The model {path} cannot be read: it is damaged or not a {suffix} file.") from error
     if suffix not in (".step", ".stp"):
         return FileContent(shape, path.stem)
-    decoration = step_colours.read(path.read_text("utf-8", errors="replace"), surface_types(shape))
-    return FileContent(shape, decoration.product or path.stem, decoration)
+    text = path.read_text("utf-8", errors="replace")
+    decoration = step_colours.read(text, surface_types(shape))
+    return FileContent(shape, decoration.product or path.stem, decoration, step_colours.declared_unit(text))
 
 
 def surface_types(shape: Part.Shape) -> list[str]:

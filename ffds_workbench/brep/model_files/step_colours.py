@@ -171,6 +171,14 @@ def _colours(entities: _Entities, faces: Sequence[_Face]) -> tuple[Colour, ...]:
     return tuple(colour or grey for colour in colours)
 
 
+def declared_unit(text: str) -> str:
+    """"inches", "metres" or "centimetres" where the text says so; "" for mm, or where it says nothing."""
+    if re.search(r"CONVERSION_BASED_UNIT\s*\(\s*'INCH'", text, re.IGNORECASE):
+        return "inches"
+    prefixes = set(re.findall(r"SI_UNIT\s*\(\s*(\$|\.[A-Z]+\.)\s*,\s*\.METRE\.", text))
+    return {"$": "metres", ".CENTI.": "centimetres"}.get(prefixes.pop(), "") if len(prefixes) == 1 else ""
+
+
 def product_name(text: str) -> str:
     """The name of the only product, "" where there are several or a nameless one."""
     names = {match[2] for match in _PRODUCT.finditer(text)}
