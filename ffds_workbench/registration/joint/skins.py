@@ -55,6 +55,8 @@ normals on more than the third share."""
 _NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
 """Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
 and the sine of the step out of their planes is below the third."""
+_FARTHEST_IN_NOISES = 4.0
+"""Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
@@ -66,14 +68,14 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
     nearer side first, or, if the scan's normals tell the side, theirs; None where no sheet is so thin that its sides
     could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
     """
-    sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
-    if not sheets or min(sheets) > _TOO_THICK * reach:
+    thickness = _thinnest(problem)
+    if thickness > _TOO_THICK * reach:
         return [None], False
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
     generator = np.random.default_rng(problem.settings.seed)
-    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, min(sheets), generator)
+    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, thickness, generator)
     if len(sketch.points) < _LEAST_NEAR_POINTS:
         return [None], False
     tree = cKDTree(sketch.points)
@@ -91,6 +93,21 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
         sides = [theirs, *(side for side in sides if (side * theirs < 0).mean() > _CONTRADICTION_SHARE)][:2]
     return [np.where(known, (side[:, None] * sketch.normals)[nearest], 0.0) for side in sides
             if side is sides[0] or (side != sides[0]).any()], bool(told.any())
+
+
+def outward_normals_of_all(problem: Problem, facing: Array | None) -> Array | None:
+    """Outward unit normals at all scan points, zero where they cannot be told, from those of the sample (m, 3): (n, 3).
+
+    None where noise carries no point over the middle of a sheet.
+    """
+    if facing is None or _FARTHEST_IN_NOISES * problem.statistics.noise < 0.5 * _thinnest(problem):
+        return None
+    return np.asarray(facing[cKDTree(problem.sample).query(problem.scan, workers=-1)[1]])
+
+
+def _thinnest(problem: Problem) -> float:
+    """Thickness in mm of the thinnest sheet, infinite where there is none."""
+    return min((t for t in problem.couplings.pairs.solid_thickness if t), default=np.inf)
 
 
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
