@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What was written as STEP is taken by seams, carry and deviation: real parts with edges and faces turned in the file."""
+"""What was written as STEP is taken by seams, carry and deviation: real parts with edges and faces turned."""
 from __future__ import annotations
 
 import csv
