@@ -45,6 +45,13 @@ def activate() -> None:
     sys.path[:] = [str(ROOT), *(path for path in sys.path if path != str(ROOT))]
 
 
+def interpreter() -> str:
+    """A Python to run a script with: inside FreeCAD ``sys.executable`` may be FreeCAD itself."""
+    if "python" in Path(sys.executable or "").name:
+        return sys.executable
+    return str(Path(sys.exec_prefix) / "bin" / "python3")
+
+
 def _put_on_path() -> None:
     library = find_library()
     if library is None:

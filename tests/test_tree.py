@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The layers of the package and what may import what, as CONTRIBUTING.md says; licences in every source file."""
+"""The layers of the package and what may import what, as CONTRIBUTING.md says; names, sizes, licences."""
 from __future__ import annotations
 
 import ast
+from collections import defaultdict
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -18,6 +20,12 @@ FREECAD = {"FreeCAD", "Part", "Points", "Mesh", "Import"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for path in ROOT.rglob(pattern)
                  if ".git" not in path.parts and path.is_file() and "out" not in path.relative_to(ROOT).parts[:1])
+
+
+LONGEST, ROOMIEST = 300, 15
+"""Lines of a module, and modules of a folder."""
+WHY_LONG = "# Long because "
+"""A comment line that begins like this allows a module to be longer."""
 
 
 def _layer(path: Path) -> str:
@@ -56,4 +64,59 @@ def test_every_source_names_its_licence(path):
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_modules_stay_short(path):
-    assert len(path.read_text("utf-8").splitlines()) <= 420, "split this module by noun"
+    lines = path.read_text("utf-8").splitlines()
+    assert len(lines) <= LONGEST or any(line.startswith(WHY_LONG) for line in lines), "split this module by noun"
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}),
+                         ids=lambda folder: str(folder.relative_to(ROOT)))
+def test_folders_stay_clear(folder):
+    modules = [path for path in folder.glob("*.py") if path.stem != "__init__"]
+    assert len(modules) <= ROOMIEST, f"{len(modules)} modules: make rooms by what a reader looks for"
+
+
+def test_no_files_import_each_other_in_a_circle():
+    names = {_module(path): path for path in MODULES}
+    arrows = {name: {found for found in map(_file_of(names), _imports(path)) if found and found != name}
+              for name, path in names.items()}
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as circle:
+        raise AssertionError(" → ".join(circle.args[1])) from None
+
+
+def _module(path: Path) -> str:
+    """Dotted name of a module or package."""
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+def _file_of(names: dict[str, Path]):
+    """The file that an imported name is in: a module, or what defines or hands on the name."""
+    return lambda name: next((part for part in (name, name.rpartition(".")[0]) if part in names), None)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_private_names_stay_in_their_package(path):
+    package = _module(path) if path.stem == "__init__" else _module(path).rpartition(".")[0]
+    for name in _imports(path):
+        home, _, last = name.rpartition(".")
+        if home.startswith("ffds_workbench") and last.startswith("_") and not last.startswith("__"):
+            inside = home if ROOT.joinpath(*home.split(".")).is_dir() else home.rpartition(".")[0]
+            assert inside == package, f"{name} is private to its package"
+
+
+def test_no_two_classes_have_one_name():
+    homes = defaultdict(list)
+    for path in MODULES:
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.ClassDef):
+                homes[node.name].append(str(path.relative_to(PACKAGE)))
+    assert not {name: found for name, found in homes.items() if len(found) > 1}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_constants_say_what_they_bound(path):
+    bare = {"_MOST", "_LEAST", "_FEWEST", "_NEAR", "_FAR", "_FEW", "_MORE", "_SAME", "_CLOSE", "_ONE"}
+    found = {node.id for node in ast.walk(ast.parse(path.read_text("utf-8")))
+             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+    assert not found & bare, "name what the constant bounds: _LEAST_BAND_POINTS"

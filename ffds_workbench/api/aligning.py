@@ -16,16 +16,16 @@ from ..brep.model_files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
 from ..registration.motions import describe_difference
+from ..registration.request import ALIGNMENTS
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
 from ..scan.sensor.files import write_ply
 from ..scan.units import MILLIMETRES
+from .destinations import destinations
 from .inputs import as_cloud, as_model
-from .outputs import destinations
 
-ALIGNMENTS = ("fine", "global")
 _TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
 
 

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the jobs start from: models and scans, as files, FreeCAD objects or arrays."""
+"""What the jobs start from: models, scans and requests, in any of the forms that callers have them in."""
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import Part
 
 from ..brep.model_files import Model, model_file
 from ..errors import InputError
+from ..registration.request import RegistrationRequest
+from ..scan import sensor_profile
 from ..scan import files as scan_files
 from ..scan.cloud import PointCloud
 
@@ -42,6 +45,31 @@ def as_cloud(scan: PointCloud | np.ndarray | str | Path) -> PointCloud:
         raise InputError(f"A scan is an array of shape (n, 3), not {points.shape}.")
     finite = np.isfinite(points).all(axis=1)
     return PointCloud(points[finite], int((~finite).sum()))
+
+
+def as_request(faces: Sequence[str] | None = None, **settings: Any) -> RegistrationRequest:
+    """A request of plain values, as macros and the command line have them.
+
+    Parameters
+    ----------
+    faces, settings : as in `RegistrationRequest`; lists do for tuples, and a preset's name or a file for the sensor
+
+    Raises
+    ------
+    InputError : as `RegistrationRequest` does, or the sensor cannot be read
+    """
+    plain = {"faces": faces, **settings}
+    for name in ("faces", "freeze"):
+        if plain.get(name) is not None:
+            plain[name] = tuple(dict.fromkeys(plain[name]))
+    if not isinstance(plain.get("lattice", ""), str):
+        plain["lattice"] = tuple(int(count) for count in plain["lattice"])
+    if plain.get("sensor") is not None:
+        plain["sensor"] = sensor_profile.find(plain["sensor"])
+    try:
+        return RegistrationRequest(**plain)
+    except TypeError as unknown:
+        raise InputError(f"A registration has no such setting: {unknown}.") from None
 
 
 def box(shape: Part.Shape) -> tuple[np.ndarray, np.ndarray]:

@@ -9,12 +9,12 @@ import numpy as np
 import Part
 
 from ..brep.model_files import Model, model_file
-from ..errors import InputError
-from ..output import check_writable, replacing
+from ..output import replacing
 from ..report import record
 from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
 from ..scan.cloud import PointCloud
+from .destinations import destinations
 from .deviating import Deviation
 from .registering import Result
 
@@ -56,26 +56,6 @@ def write_deviation(result: Deviation, report: str | Path | None = None, picture
         if picture is not None:
             panel = drawing.Panel("Deviation from the model", _all(result.faces), _edges(result.model.shape))
             _draw(target[1], result.model, result.scan, result.faces, [panel])
-
-
-def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:
-    """Refuse destinations that cannot be written, before any work is done (InputError)."""
-    destinations(paths, inputs)
-
-
-def check_model_output(path: str | Path) -> None:
-    """Refuse the name of an as-built model that no exporter knows (InputError)."""
-    model_file.check_output(Path(path))
-
-
-def destinations(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:
-    """The destinations that are asked for, by their place."""
-    outputs = {place: Path(path) for place, path in enumerate(paths) if path is not None}
-    if len({path.resolve() for path in outputs.values()}) < len(outputs):
-        raise InputError("Two outputs have the same name: choose different ones.")
-    for path in outputs.values():
-        check_writable(path, [Path(item) for item in inputs])
-    return outputs
 
 
 def _all(faces: Sequence[FaceDeviation]) -> np.ndarray:

@@ -12,8 +12,8 @@ from ..registration.joint import SensorProfile
 from ..scan import sensor_profile
 from ..scan.cloud import PointCloud
 from ..scan.sensor_noise import measure
+from .destinations import destinations
 from .inputs import as_cloud
-from .outputs import destinations
 
 
 def measure_sensor(scans: Sequence[PointCloud | np.ndarray], flat: bool = False, name: str = "measured"

@@ -12,8 +12,8 @@ from ..brep.simulated_scan import Simulation, simulate_shape
 from ..output import replacing
 from ..scan.sensor import SensorSettings
 from ..scan.sensor.files import write_ply
+from .destinations import destinations
 from .inputs import as_model
-from .outputs import destinations
 
 
 def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None = None) -> Simulation:

@@ -10,11 +10,12 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from . import accuracy_cases, accuracy_sheet, page, style
-from .accuracy_cases import FLAGS
-from .accuracy_lines import AccuracyLine, figure, held, lines
-from .accuracy_sheet import FIGURES, SHEETS
-from .page import Picture, Section, Table
+from .accuracy_study import accuracy_cases, accuracy_sheet
+from .accuracy_study.accuracy_cases import FLAGS
+from .accuracy_study.accuracy_lines import AccuracyLine, figure, held, lines
+from .accuracy_study.accuracy_sheet import FIGURES, SHEETS
+from .pages import page, style
+from .pages.page import Picture, Section, Table
 
 Progress = Callable[[str], None]
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Long because the kinds of scans, their trials and their tables are one story that is read in a row.
 """How reliably a scan is brought onto the part: random start poses, deformed and cropped scans, a table, other parts.
 
 A failure is a pose more than 1 mm or 0.5° from the truth; for a deformed part, from the pose that fits the deformed
@@ -29,12 +30,12 @@ from ..registration.face_geometry import FaceGeometry
 from ..registration.motions import angle, apply, best_fit, motion
 from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
 from ..scan.sensor import SensorSettings, View, simulate
-from .families import Case, make_case
-from .page import Section, Table, write
+from .pages.page import Section, Table, write
+from .simulated.families import Case, make_case
 
 Array = np.ndarray
 _FAMILIES = ("bracket", "rimmed-plate", "hat-channel", "pipe-on-plate", "free-form-panel")
-_FAR, _TURNED = 1.0, np.deg2rad(0.5)
+_FAILED_SHIFT, _FAILED_TURN = 1.0, np.deg2rad(0.5)
 _POINTS = 360_000
 """Of every scan, cropped or with a table: as many as a stereo camera's shot has."""
 _WARPS, _OTHER_SEED = ("bend", "twist", "iso", "mix", "bumps"), 2
@@ -84,7 +85,7 @@ class Try:
 
     @property
     def failed(self) -> bool:
-        return bool(self.verdict == FAILED or np.linalg.norm(self.offset) > _FAR or self.turn > _TURNED)
+        return bool(self.verdict == FAILED or np.linalg.norm(self.offset) > _FAILED_SHIFT or self.turn > _FAILED_TURN)
 
 
 def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
@@ -230,7 +231,8 @@ def one_start(trial: Trial, mode: str, seed: int) -> Try:
     for candidate in found.poses:
         pose = candidate.T_model_scan @ moved
         away, by = (apply(pose, centre) - apply(trial.truth, centre))[0], float(angle(pose, trial.truth))
-        if np.linalg.norm(away) / _FAR + by / _TURNED < np.linalg.norm(offset) / _FAR + turn / _TURNED:
+        before = np.linalg.norm(offset) / _FAILED_SHIFT + turn / _FAILED_TURN
+        if np.linalg.norm(away) / _FAILED_SHIFT + by / _FAILED_TURN < before:
             offset, turn = away, by
     return Try(trial.part, found.verdict, offset, turn, seconds, downsampling)
 

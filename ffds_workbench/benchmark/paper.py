@@ -9,10 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from . import page, paper_case, paper_figures, paper_pictures, paper_plots, paper_real
-from .page import Picture, Section, Table
-from .paper_figures import PUBLISHED_ACCURACY, PUBLISHED_TIMES, Progress, Row
-from .paper_methods import TITLES
+from .pages import page
+from .pages.page import Picture, Section, Table
+from .paper_study import paper_case, paper_figures, paper_pictures, paper_plots, paper_real
+from .paper_study.paper_figures import PUBLISHED_ACCURACY, PUBLISHED_TIMES, Progress, Row
+from .paper_study.paper_methods import TITLES
 
 _TITLE = "The paper's figures, reproduced"
 _SIMULATED = ("All clouds here are simulated. The paper states neither the size of its sheet nor the formula of its "

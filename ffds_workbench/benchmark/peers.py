@@ -19,11 +19,12 @@ import numpy as np
 
 from .. import ROOT
 from ..registration.arrays import Array
-from . import page, peers_environment, style
-from .page import Picture, Section, Table
-from .paper_case import true_distance
-from .peers_environment import Environment
-from .sheet import SIZE, scan
+from .pages import page, style
+from .pages.page import Picture, Section, Table
+from .paper_study.paper_case import true_distance
+from .peer_study import peers_environment
+from .peer_study.peers_environment import Environment
+from .simulated.sheet import SIZE, scan
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]
@@ -39,7 +40,7 @@ _PATIENCE = 20
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 _LABEL_LEFT = ("robust", "ffds_small")
 _LABEL_BELOW = ("ffds_small", "ffd_hsu", "pycpd_outliers", "probreg")
-_WORKER = Path(__file__).with_name("peer_worker.py")
+_WORKER = Path(__file__).parent / "peer_study" / "peer_worker.py"
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ from ..registration.arrays import Array
 from ..registration.face import observed_faces
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
-from . import page
-from .page import Section, Table
+from .pages import page
+from .pages.page import Section, Table
 
 FOLDER = ROOT.parent / "shared" / "data" / "weld_pipe_on_angle"
 _FOLDS = 5

@@ -18,10 +18,10 @@ from .. import api
 from ..errors import RefusedError
 from ..registration.arrays import Array
 from ..registration.face import register_ffd, register_ffds, register_robust
-from . import page, style
 from .interleaved import best_seconds, median_seconds, timed
-from .page import Picture, Section, Table
-from .sheet import NOISE, nominal, scan
+from .pages import page, style
+from .pages.page import Picture, Section, Table
+from .simulated.sheet import NOISE, nominal, scan
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]

@@ -18,9 +18,11 @@ from ..registration.arrays import Array
 from ..registration.face import (displacement_lattice, equidistant_grid, nearest_neighbours, register_ffds,
                                  register_robust, solve_lattice)
 from ..registration.face_geometry import FaceGeometry
-from . import page, sheet, speed_whole
+from . import speed_whole
 from .interleaved import best_seconds, median_seconds
-from .page import Section, Table
+from .pages import page
+from .pages.page import Section, Table
+from .simulated import sheet
 
 Progress = Callable[[str], None]
 

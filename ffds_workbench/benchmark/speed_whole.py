@@ -22,10 +22,10 @@ from ..registration.arrays import Array
 from ..registration.joint import register_joint
 from ..scan.sensor import SensorSettings, View, simulate
 from ..scan.sensor.files import write_ply
-from .families import Case, make_case
 from .interleaved import median_seconds
-from .page import Section, Table
+from .pages.page import Section, Table
 from .scaling import tiles
+from .simulated.families import Case, make_case
 
 Progress = Callable[[str], None]
 Row = dict[str, float]

@@ -16,9 +16,9 @@ from typing import Any
 from .. import ROOT
 from ..errors import InputError
 from . import peers
-from .accuracy_cases import NOISE
-from .page import Table
-from .paper_methods import TITLES
+from .accuracy_study.accuracy_cases import NOISE
+from .pages.page import Table
+from .paper_study.paper_methods import TITLES
 
 Progress = Callable[[str], None]
 

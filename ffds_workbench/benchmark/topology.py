@@ -27,8 +27,9 @@ from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
 from ..report.boolean_check import boolean_checks, total
 from ..report.certificate import Certificate, Condition, broken, condition
-from . import page, topology_shapes
-from .page import Section, Table
+from .pages import page
+from .pages.page import Section, Table
+from .simulated import topology_shapes
 
 Progress = Callable[[str], None]
 

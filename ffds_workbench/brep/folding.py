@@ -2,13 +2,16 @@
 """Whether a deformed face has folded over: its normal against the nominal's, at sample points inside the trims."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ..errors import RefusedError
 from ..registration.arrays import Array
 from ..registration.splines import DEGREE, SplineSurface
+from .face_displacement import FaceDisplacement
 from .surface_fit import GridFunction
+from .workpiece import Workpiece
 
 _LEAST_SAMPLES, _LARGEST_SAMPLES = 17, 49
 _VANISHING_NORMAL = 1e-3
@@ -22,8 +25,31 @@ def folded(nominal: GridFunction, deformed: SplineSurface, trims: Sequence[Array
     """
     u0, u1, v0, v1 = deformed.range
     u, v = _samples(u0, u1, deformed.knots_u), _samples(v0, v1, deformed.knots_v)
+    return _turned(u, v, nominal(u, v), deformed.on_grid(u, v), trims)
+
+
+def refuse_folds(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement]) -> None:
+    """Refuse displacements that fold a face over, before any surface is made of them (RefusedError)."""
+    for index, displacement in sorted(displacements.items()):
+        face = workpiece.faces[index]
+        ends = (face.box.u0, face.box.u1), (face.box.v0, face.box.v1)
+        u, v = (np.linspace(*end, _LARGEST_SAMPLES) for end in ends)
+        points = face.on_grid(u, v)
+        uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
+        moved = points + displacement.evaluate(uv, points.reshape(-1, 3)).reshape(points.shape)
+        if _turned(u, v, points, moved, face.trims):
+            raise folds_over(face.name)
+
+
+def folds_over(name: str) -> RefusedError:
+    """What is said of a face that folds over."""
+    return RefusedError(f"{name} would fold over: the displacement is too large for its size.")
+
+
+def _turned(u: Array, v: Array, nominal: Array, deformed: Array, trims: Sequence[Array]) -> bool:
+    """Whether a cell inside the trims turned or vanished: points (m, n, 3) over the grid u (m,), v (n,)."""
     inside = _inside(0.5 * (u[1:] + u[:-1]), 0.5 * (v[1:] + v[:-1]), trims)
-    before, after = _cell_normals(nominal(u, v))[inside], _cell_normals(deformed.on_grid(u, v))[inside]
+    before, after = _cell_normals(nominal)[inside], _cell_normals(deformed)[inside]
     area = np.linalg.norm(before, axis=1)
     regular = area > 1e-6 * area.max(initial=0.0)
     agreement = np.einsum("ij,ij->i", before, after)[regular]

@@ -17,7 +17,7 @@ from ..registration.arrays import Array
 from ..registration.splines import SplineSurface
 from .edge_geometry import EdgeGeometry
 from .face_displacement import FaceDisplacement
-from .folding import folded
+from .folding import folded, folds_over
 from .occt_text import Locations, NewFace, PcurveReader, Rewriter, dump, parse, walk
 from .surface_fit import approximate
 from .workpiece import Workpiece, WorkpieceFace
@@ -89,4 +89,4 @@ def _refuse_folds(workpiece: Workpiece, faces: Mapping[int, NewFace]) -> None:
     for index, new in faces.items():
         face = workpiece.faces[index]
         if folded(face.on_grid, new.surface, face.trims):
-            raise RefusedError(f"{face.name} would fold over: the displacement is too large for its size.")
+            raise folds_over(face.name)

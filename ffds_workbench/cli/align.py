@@ -34,10 +34,10 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     api.check_outputs((options.out, options.pose), inputs)
     if options.out.suffix.lower() != ".ply":
         raise InputError(f"An aligned scan is written as .ply, not as '{options.out.suffix}'.")
-    progress(f"Reading {options.model}")
-    model = api.read_model(options.model, options.object)
     progress(f"Reading {', '.join(str(path) for path in options.scan)}")
     scan = api.read_scan(options.scan, options.scan_unit)
+    progress(f"Reading {options.model}")
+    model = api.read_model(options.model, options.object)
     aligned = api.align_scan(model, scan, options.mode, progress)
     api.write_alignment(aligned, options.out, options.pose, inputs)
     names = ", ".join(str(path) for path in (options.out, options.pose) if path is not None)

@@ -43,11 +43,11 @@ def _add_world(command: argparse.ArgumentParser) -> None:
 
 
 def _world(options: argparse.Namespace) -> dict[str, Any]:
-    from ..benchmark.world import DEFORMATIONS, Settings
+    from ..benchmark.world import DEFORMATIONS, ScanSettings
 
     names = ("views", "points", "sigma", "scale", "seed", "normals")
     chosen = {name: value for name in names if (value := getattr(options, name)) is not None}
-    return {"parts": options.parts, "primitives": options.primitives, "settings": Settings(**chosen),
+    return {"parts": options.parts, "primitives": options.primitives, "settings": ScanSettings(**chosen),
             "deformations": options.deformations or DEFORMATIONS, "workers": options.workers, "limit": options.limit}
 
 

@@ -7,23 +7,19 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import signal
 import sys
 import traceback
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, TextIO
+from typing import NoReturn, TextIO
 
 from .. import RESOURCES, __version__
+from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
-from ..scan.units import MILLIMETRES
 from . import align, benchmark, seams, sensor, simulate, weld
+from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .terminal import ProgressLine, quiet_libraries
-
-if TYPE_CHECKING:
-    from .. import api
 
 FAILED, INTERRUPTED = 3, 130
 DEBUG = "FFDS_DEBUG"
@@ -45,6 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         return _fail(sys.stderr, error)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for name, label in (("model", getattr(options, "object", None)), ("nominal", None), ("as_built", None)):
+        if isinstance(path := getattr(options, name, None), Path):
+            reading.begin(path, label)  # beside what else there is to load
     with quiet_libraries() as (out, err):
         progress = ProgressLine(err)
         try:
@@ -101,42 +100,19 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_inputs(command: argparse.ArgumentParser) -> None:
-    command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
-    command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
-                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 or .stl; several of one part are fused")
-    command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
-    command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
-
-
 def _add_register(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("register", help="deform the model to the scan and write the as-built model")
-    _add_inputs(command)
+    add_inputs(command)
     command.add_argument("--out", type=Path, required=True, help="as-built model: .step, .brep or .FCStd")
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the deviation before and after")
-    command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
-                         help="faces to deform, each by itself (default: the whole part)")
-    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
-                         help="faces that must not move")
-    command.add_argument("--method", choices=["robust", "ffds", "ffd-hsu"], default="robust", help="default: robust")
-    command.add_argument("--lattice", type=_lattice, default="auto", metavar="NIxNJ",
-                         help="control points per face, for instance 10x10 (default: auto)")
-    command.add_argument("--source-points", type=_count, default=400, metavar="N",
-                         help="source points per face of methods ffds and ffd-hsu (default: 400)")
-    command.add_argument("--isometry", choices=["auto", "on", "off"], default="auto",
-                         help="whether a whole sheet part keeps its lengths (default: decided from the scan)")
-    command.add_argument("--align", choices=["none", "fine", "global"], default="none",
-                         help="bring the scan onto the model first (default: none)")
-    command.add_argument("--sensor", metavar="PROFILE.json",
-                         help="for bands that allow for noise that neighbouring points share: what 'ffds sensor "
-                              f"measure' wrote, or one of {', '.join(sensor.PRESETS)}")
+    add_registration(command)
     command.set_defaults(run=register)
 
 
 def _add_deviation(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("deviation", help="measure the scan's distance from the model")
-    _add_inputs(command)
+    add_inputs(command)
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the scan, coloured by its deviation")
     command.set_defaults(run=deviation)
@@ -148,21 +124,6 @@ def _add_demo(commands: argparse._SubParsersAction) -> None:
     command.set_defaults(run=demo)
 
 
-def _lattice(text: str) -> tuple[int, int] | str:
-    if text == "auto":
-        return text
-    match = re.fullmatch(r"(\d+)[xX×](\d+)", text)
-    if match is None:
-        raise argparse.ArgumentTypeError(f"'{text}' is no lattice: write NIxNJ, for instance 10x10, or auto")
-    return int(match[1]), int(match[2])
-
-
-def _count(text: str) -> int:
-    if not text.isdigit() or int(text) < 16:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number of source points: 16 are the least")
-    return int(text)
-
-
 def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds register``: the table to print."""
     from .. import api
@@ -170,17 +131,11 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     inputs = [options.model, *options.scan]
     api.check_outputs((options.out, options.report, options.picture), inputs)
     api.check_model_output(options.out)
-    model, scan = _read(api, options, progress)
-    aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
-    scan = scan if aligned is None else aligned.scan
-    result = api.register(model, scan, options.face, options.method, options.lattice, options.freeze,
-                          options.source_points, options.isometry, progress, sensor=options.sensor)
-    if aligned is not None:
-        result = replace(result, alignment=aligned.report)
+    request = read_request(options)
+    result = api.run(request, *read_inputs(options, progress), progress)
     progress(f"Writing {options.out}")
     api.write(result, options.out, options.report, options.picture, inputs)
-    tables = [aligned.table()] if aligned is not None else []
-    return "\n\n".join([*tables, result.table(), _written(options.out, options.report, options.picture)])
+    return "\n\n".join([result.table(), _written(options.out, options.report, options.picture)])
 
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
@@ -189,7 +144,7 @@ def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
 
     inputs = [options.model, *options.scan]
     api.check_outputs((options.report, options.picture), inputs)
-    model, scan = _read(api, options, progress)
+    model, scan = read_inputs(options, progress)
     result = api.deviation(model, scan, progress)
     api.write_deviation(result, options.report, options.picture, inputs)
     written = _written(options.report, options.picture)
@@ -209,13 +164,6 @@ def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
     wanted = weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
     text = weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
     return f"{text}\n\nWritten: {folder / weld.PAGE} and what it shows"
-
-
-def _read(api_module: api, options: argparse.Namespace, progress: ProgressLine) -> tuple[api.Model, api.PointCloud]:
-    progress(f"Reading {options.model}")
-    model = api_module.read_model(options.model, options.object)
-    progress(f"Reading {', '.join(str(path) for path in options.scan)}")
-    return model, api_module.read_scan(options.scan, options.scan_unit)
 
 
 def _written(*paths: Path | None) -> str:

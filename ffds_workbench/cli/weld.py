@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from ..errors import InputError
 from ..output import replacing
 from ..report.page import Step, page
-from ..scan.units import MILLIMETRES
 from . import seams as seam_options
+from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .terminal import Progress
 
 if TYPE_CHECKING:
@@ -46,16 +46,8 @@ def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line's parser."""
     command = commands.add_parser("weld",
                                   help="all in one: scan, as-built model, seams, robot programs, and a page on it")
-    command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
-    command.add_argument("scan", type=Path, nargs="+", metavar="SCAN", help="several of one part are fused")
-    command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
-    command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
-    command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
-                         help="faces to deform, each by itself (default: the whole part)")
-    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
-                         help="faces that must not move")
-    command.add_argument("--align", choices=["none", "fine", "global"], default="none",
-                         help="bring the scan onto the model first (default: none)")
+    add_inputs(command)
+    add_registration(command)
     seam_options.add_options(command)
     command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS),
                          help="default: all three")
@@ -71,18 +63,11 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
         raise InputError("No seam was named: give --edge, or --auto with the distance within which parts count as "
                          "touching.")
     robot, settings, limits = seam_options.read_options(options)
+    request = read_request(options)
     folder = make_folder(options.out)
-    progress(f"Reading {options.model}")
-    model = api.read_model(options.model, options.object)
-    progress(f"Reading {', '.join(map(str, options.scan))}")
-    scan = api.read_scan(options.scan, options.scan_unit)
     wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
-    aligned = None if options.align == "none" else api.align_scan(model, scan, options.align, progress)
-    result = api.register(model, scan if aligned is None else aligned.scan, options.face, freeze=options.freeze,
-                          progress=progress)
-    first = [] if aligned is None else [Step("Alignment", "The scan brought onto the model by a rigid motion.",
-                                             aligned.table())]
-    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress, first)
+    result = api.run(request, *read_inputs(options, progress), progress)
+    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress)
     return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
 
 
@@ -96,11 +81,8 @@ def make_folder(path: Path) -> Path:
 
 
 def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str, inputs: Sequence[Path],
-                progress: Progress, first: Sequence[Step] = ()) -> str:
-    """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print.
-
-    ``first`` are the steps that went before, for the page.
-    """
+                progress: Progress) -> str:
+    """Write an as-built model, its report and picture, and find, measure and write its seams; the tables to print."""
     from .. import api
 
     report, picture = folder / "report.json", folder / "deviation.png"
@@ -117,17 +99,18 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     if "kuka" in wanted.dialects:
         programs.append("seams.dat")
     steps = [
-        *first,
+        *([] if result.aligned is None else [Step(
+            "Alignment", "The scan brought onto the model by a rigid motion.", result.aligned.table())]),
         Step("Scan", "What the scanner saw, in the model's coordinates.", _about_scan(result.scan)),
-        Step("As-built model", "The nominal model deformed to the scan, with its topology unchanged.", result.table(),
-             picture.name, [as_built, report.name]),
+        Step("As-built model", "The nominal model deformed to the scan, with its topology unchanged.",
+             result.deviation_table(), picture.name, [as_built, report.name]),
         Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.",
              seams, "seams.png", ["seams.csv", "seams.json"]),
         Step("Robot programs", "The same poses in each dialect, in the frame of the model.",
              _about_robot(wanted.robot), None, [*programs, "seams.FCStd"])]
     with replacing(folder / PAGE) as (temporary,):
         temporary.write_text(page(result.nominal.label, "From the scan to the robot's program.", steps), "utf-8")
-    return "\n\n".join([*(step.figures for step in first), result.table(), seams])
+    return "\n\n".join([result.table(), seams])
 
 
 def _about_scan(scan: api.PointCloud) -> str:

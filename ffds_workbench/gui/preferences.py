@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import FreeCAD
 
 from .. import RESOURCES
+from ..registration.request import ISOMETRY, METHODS
 
 PAGE = RESOURCES / "ui" / "preferences.ui"
 _GROUP = "User parameter:BaseApp/Preferences/Mod/FFDS"
-_METHODS = ("robust", "ffds", "ffd-hsu")
-_ISOMETRY = ("auto", "on", "off")
 
 
 @dataclass(frozen=True)
@@ -22,7 +21,7 @@ class Preferences:
     ----------
     preview : show the deformed faces while settings change
     lattice : draw the control lattices in the preview
-    method, isometry, stiffness : as in `Settings` of a new as-built part
+    method, isometry, stiffness : as in the `RegistrationRequest` of a new as-built part
     gate : distance in mm beyond which scan points are outliers; 0 for the default
     tolerance : band of the deviation map in mm that is shown in one green; 0 for none
     """
@@ -41,7 +40,7 @@ def preferences() -> Preferences:
     group, plain = FreeCAD.ParamGet(_GROUP), Preferences()
     return Preferences(
         group.GetBool("Preview", plain.preview), group.GetBool("Lattice", plain.lattice),
-        _entry(_METHODS, group.GetInt("Method", 0)), _entry(_ISOMETRY, group.GetInt("Isometry", 0)),
+        _entry(METHODS, group.GetInt("Method", 0)), _entry(ISOMETRY, group.GetInt("Isometry", 0)),
         group.GetFloat("Stiffness", plain.stiffness), group.GetFloat("Gate", plain.gate),
         group.GetFloat("Tolerance", plain.tolerance))
 

@@ -6,7 +6,6 @@ Errors are `InputError` and `RefusedError`; a function that raises has left the 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +13,11 @@ from .. import RESOURCES, api
 from ..brep.model_files import model_file
 from ..errors import InputError
 from ..output import check_writable, replacing
-from . import alignment, scans, simulation, views
-from .as_built import AsBuilt, apply_settings, is_as_built, settings_of
-from .job import Job, Settings, make_job
-from .manual_alignment import align_by_points
+from . import scans, views
+from .as_built import AsBuilt, apply_request, is_as_built, request_of
+from .jobs import alignment_job, simulation_job
+from .jobs.manual_alignment import align_by_points
+from .jobs.registration_job import Job, make_job
 from .repointing import repoint
 from .seams import add_trajectories, export_program, make_seams
 from .sources import standing_for
@@ -56,7 +56,7 @@ def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
     scans.scan_points(scan)
     if scan.getParentGeoFeatureGroup() is not None:
         raise InputError(f"{scan.Label} lies in a part: drag it out into the document before aligning it.")
-    aligned = alignment.find(source, scan, mode)
+    aligned = alignment_job.find(source, scan, mode)
     scans.set_points(scan, aligned.scan.points, aligned.scan.normals)
     return scan
 
@@ -69,13 +69,13 @@ def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **
     source : the nominal part, any object with a shape
     scan : a Points object
     faces : names of the faces to deform, None for the whole part
-    settings : freeze, method, lattice, source_points, isometry, stiffness, gate, as in `api.register`
+    settings : freeze, method, lattice, source_points, isometry, stiffness, gate, as in `api.RegistrationRequest`
 
     Raises
     ------
     InputError, RefusedError : as `api.register` does
     """
-    wanted = _settings(faces, settings)
+    wanted = _request(faces, settings)
     job = make_job(source, scan, wanted)
     wait_for(job.source.item.Label, job.run)
     source = job.source.item
@@ -83,7 +83,7 @@ def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **
     AsBuilt(item)
     item.Label = f"{source.Label} as built"
     item.Source, item.Scan = source, scan
-    apply_settings(item, wanted)
+    apply_request(item, wanted)
     holder = source.getParentGroup() or source.getParentGeoFeatureGroup()
     if holder is not None:
         holder.addObject(item)
@@ -97,10 +97,10 @@ def change_as_built(item: Any, faces: Sequence[str] | None = None, scan: Any = N
     """Give an as-built part other settings, and another scan if one is named; unnamed settings take their defaults."""
     if not is_as_built(item):
         raise InputError(f"{item.Label} is no as-built part of this workbench.")
-    wanted = _settings(faces, settings)
+    wanted = _request(faces, settings)
     wait_for(item.Label, make_job(item.Source, scan or item.Scan, wanted).run)
     item.Scan = scan or item.Scan
-    apply_settings(item, wanted)
+    apply_request(item, wanted)
     item.recompute()
     return item
 
@@ -110,7 +110,7 @@ def replace_in_place(source: Any, scan: Any, faces: Sequence[str] | None = None,
     if source.TypeId != "Part::Feature":
         raise InputError(f"{source.Label} is computed from other things and cannot be replaced in place: make a simple "
                          f"copy of it, or an as-built part beside it.")
-    job = make_job(source, scan, _settings(faces, settings))
+    job = make_job(source, scan, _request(faces, settings))
     shape = wait_for(source.Label, job.run).shape.copy()
     shape.Placement = job.source.placement
     source.Shape = shape
@@ -122,7 +122,7 @@ def simulate_scan(source: Any, spacing: float = 0.5, noise: float = 0.05,
     """Scan a part with the virtual sensor: a Points object. ``views`` are directions from the part to the camera; none:
     the whole surface is seen. Lengths in mm."""
     source = standing_for(source)
-    points = wait_for(source.Label, simulation.prepare(source, spacing, noise, views, outliers, seed))
+    points = wait_for(source.Label, simulation_job.prepare(source, spacing, noise, views, outliers, seed))
     return scans.add_scan(source.Document, points, f"{source.Label} scanned")
 
 
@@ -147,11 +147,12 @@ def export_as_built(item: Any, path: str) -> None:
 
 def job_of(item: Any) -> Job:
     """The registration that an as-built part stands for."""
-    return make_job(item.Source, item.Scan, settings_of(item))
+    return make_job(item.Source, item.Scan, request_of(item))
 
 
-def _settings(faces: Sequence[str] | None, others: dict[str, Any]) -> Settings:
-    """Settings of plain lists, as macros name them."""
-    wanted = Settings(None if faces is None else tuple(faces), **others)
-    lattice = wanted.lattice if isinstance(wanted.lattice, str) else (int(wanted.lattice[0]), int(wanted.lattice[1]))
-    return replace(wanted, freeze=tuple(wanted.freeze), lattice=lattice)
+def _request(faces: Sequence[str] | None, settings: dict[str, Any]) -> api.RegistrationRequest:
+    """A request of plain values, of what a document keeps."""
+    request = api.as_request(faces, **settings)
+    if request.align != "none" or request.sensor is not None:
+        raise InputError("An as-built part takes its scan as it lies, and no sensor profile: align the scan first.")
+    return request

@@ -9,18 +9,20 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from ..api.registering import ISOMETRY, METHODS
-from ..api.tuning import STIFFEST
 from ..errors import InputError
+from ..registration.request import ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST, RegistrationRequest
 from ..report.table import doubts
 from .feature import HIDDEN, READ_ONLY, Feature, Property
-from .job import Job, Settings, make_job
+from .jobs.registration_job import Job, make_job
 from .lattices import Lattice, draw_lattices
 from .signatures import found_again, signatures
 from .waiting import wait_for
 
 _FIGURES = (("MeanBefore", "deviation_before", "mean"), ("P95Before", "deviation_before", "p95"),
             ("MeanAfter", "deviation_after", "mean"), ("P95After", "deviation_after", "p95"))
+
+
+_PLAIN = RegistrationRequest()
 
 
 def _figure(name: str, text: str) -> Property:
@@ -43,12 +45,13 @@ class AsBuilt(Feature):
         Property("ControlPointsV", "App::PropertyIntegerConstraint", "As built",
                  "Control points of each face in v; 0: chosen from the data", (0, 0, 400, 1)),
         Property("SourcePoints", "App::PropertyIntegerConstraint", "As built",
-                 "Source points on each face, for the methods ffds and ffd-hsu", (400, 16, 1000000, 100)),
+                 "Source points on each face, for the methods ffds and ffd-hsu",
+                 (_PLAIN.source_points, LEAST_SOURCE_POINTS, 1000000, 100)),
         Property("Isometry", "App::PropertyEnumeration", "As built",
                  "Whether a whole sheet part is held inextensible", list(ISOMETRY)),
         Property("Stiffness", "App::PropertyFloatConstraint", "As built",
                  "Above 1 the displacement is smoother, below 1 it follows the scan more closely",
-                 (1.0, 1 / STIFFEST, STIFFEST, 0.1)),
+                 (_PLAIN.stiffness, 1 / STIFFEST, STIFFEST, 0.1)),
         Property("Gate", "App::PropertyLength", "As built",
                  "Scan points farther than this from the as-built part are outliers; 0: a default for most scans"),
         _figure("MeanBefore", "Mean distance of the scan from the nominal part"),
@@ -71,7 +74,7 @@ class AsBuilt(Feature):
         if obj.Source is None or obj.Scan is None:
             missing = "nominal part" if obj.Source is None else "scan"
             raise InputError(f"{obj.Label} has lost its {missing}: choose one in its properties.")
-        job = _with_faces_found_again(obj, make_job(obj.Source, obj.Scan, settings_of(obj)))
+        job = _with_faces_found_again(obj, make_job(obj.Source, obj.Scan, request_of(obj)))
         result = wait_for(obj.Label, job.run)
         obj.Shape = result.shape
         obj.Placement = job.source.placement
@@ -80,7 +83,7 @@ class AsBuilt(Feature):
         obj.Report = json.dumps(result.report)
         if doubt := doubts(result.report):
             FreeCAD.Console.PrintWarning(f"{obj.Label}: {doubt}\n")
-        obj.Signatures = signatures(job.source.model.shape, (*(job.settings.faces or ()), *job.settings.freeze))
+        obj.Signatures = signatures(job.source.model.shape, (*(job.request.faces or ()), *job.request.freeze))
         lattices = draw_lattices(job.source.model.shape, result.registrations)
         obj.LatticeSizes = [count for item in lattices for count in item.nominal.shape[:2]]
         obj.LatticeNominal = _vectors([item.nominal for item in lattices])
@@ -92,30 +95,31 @@ def is_as_built(item: Any) -> bool:
     return isinstance(getattr(item, "Proxy", None), AsBuilt)
 
 
-def settings_of(obj: Any) -> Settings:
-    """The settings that an as-built object holds.
+def request_of(obj: Any) -> RegistrationRequest:
+    """The request that the properties of an as-built object make.
 
     Raises
     ------
-    InputError : a face belongs to another part than the source, or the lattice is given in one direction alone
+    InputError : a face belongs to another part than the source, or the lattice is given in one direction alone; else as
+        `RegistrationRequest` does
     """
     sizes = (obj.ControlPointsU, obj.ControlPointsV)
     if (sizes[0] == 0) != (sizes[1] == 0):
         raise InputError(f"{obj.Label} has a lattice of {sizes[0]} × {sizes[1]} control points: give both numbers, or "
                          f"0 for both to choose them from the data.")
     faces = _names(obj, obj.Faces)
-    return Settings(faces or None, _names(obj, obj.Freeze), obj.Method, sizes if sizes[0] else "auto", obj.SourcePoints,
-                    obj.Isometry, obj.Stiffness, obj.Gate.Value or None)
+    return RegistrationRequest(faces or None, obj.Method, sizes if sizes[0] else "auto", _names(obj, obj.Freeze),
+                               obj.SourcePoints, obj.Isometry, obj.Stiffness, obj.Gate.Value or None)
 
 
-def apply_settings(obj: Any, settings: Settings) -> None:
-    """Write settings into an as-built object; their faces are those of the nominal part as it is now."""
+def apply_request(obj: Any, request: RegistrationRequest) -> None:
+    """Write a request into the properties of an as-built object; its faces are those of the nominal part as it is."""
     obj.Signatures = []
-    obj.Faces = [(obj.Source, settings.faces)] if settings.faces else []
-    obj.Freeze = [(obj.Source, settings.freeze)] if settings.freeze else []
-    obj.Method, obj.Isometry, obj.SourcePoints = settings.method, settings.isometry, settings.source_points
-    obj.Stiffness, obj.Gate = settings.stiffness, settings.gate or 0.0
-    obj.ControlPointsU, obj.ControlPointsV = (0, 0) if settings.lattice == "auto" else settings.lattice
+    obj.Faces = [(obj.Source, request.faces)] if request.faces else []
+    obj.Freeze = [(obj.Source, request.freeze)] if request.freeze else []
+    obj.Method, obj.Isometry, obj.SourcePoints = request.method, request.isometry, request.source_points
+    obj.Stiffness, obj.Gate = request.stiffness, request.gate or 0.0
+    obj.ControlPointsU, obj.ControlPointsV = (0, 0) if request.lattice == "auto" else request.lattice
 
 
 def _with_faces_found_again(obj: Any, job: Job) -> Job:
@@ -125,10 +129,10 @@ def _with_faces_found_again(obj: Any, job: Job) -> Job:
     if all(old == new for old, new in names.items()):
         return job
     faces, freeze = (tuple(names.get(name, name) for name in old)
-                     for old in (job.settings.faces or (), job.settings.freeze))
+                     for old in (job.request.faces or (), job.request.freeze))
     obj.Faces = [(obj.Source, faces)] if faces else []
     obj.Freeze = [(obj.Source, freeze)] if freeze else []
-    return replace(job, settings=replace(job.settings, faces=faces or None, freeze=freeze))
+    return replace(job, request=replace(job.request, faces=faces or None, freeze=freeze))
 
 
 def lattices_of(obj: Any) -> list[Lattice]:

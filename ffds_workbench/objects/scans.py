@@ -28,7 +28,7 @@ _VECTORS = """<Content>
 _INDEX = """<Content>
 <Points file="Points" mtrx="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "/>
 </Content>"""
-_FAR = 1000.0
+_FAR_FROM_ORIGIN = 1000.0
 """A scan farther from the origin than this (mm) is stored about a local origin: documents hold points as float32."""
 
 
@@ -99,7 +99,7 @@ def _has_normals(item: Any) -> bool:
 
 
 def _origin(points: Array) -> Array:
-    return np.round(np.median(points, axis=0)) if np.abs(points).max() > _FAR else np.zeros(3)
+    return np.round(np.median(points, axis=0)) if np.abs(points).max() > _FAR_FROM_ORIGIN else np.zeros(3)
 
 
 def _kernel(points: Array) -> Points.Points:

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 from .. import api
 from ..errors import InputError
+from ..seams.output.table import csv_text
 from ..seams.plan import SeamPlan
 from ..seams.programs.moves import moves
 from ..seams.programs.trajectory import add_trajectories as add_moves
-from ..seams.table import csv_text
 from . import views
 from .as_built import is_as_built
 from .feature import HIDDEN, READ_ONLY, Feature, Property
-from .seam_job import SeamJob, SeamWishes, make_seam_job
+from .jobs.seam_job import SeamJob, SeamWishes, make_seam_job
 from .waiting import wait_for
 
 Array = NDArray[np.float64]

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import Part
 
+from .. import find_freecad
 from ..brep import topology
 
 _CHECKER = """
@@ -72,7 +73,8 @@ class BooleanChecks:
         path = Path(self._folder.name) / f"{len(self._processes)}.brep"
         bodies = topology.bodies(shape)
         Part.makeCompound(bodies).exportBrep(str(path))
-        command = [_interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path), str(math.ceil(self._limit) + 1)]
+        command = [find_freecad.interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path),
+                   str(math.ceil(self._limit) + 1)]
         self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
         self._checks.append(_Check(self._processes[-1], len(bodies), time.monotonic() + _PATIENCE * self._limit))
 
@@ -121,10 +123,3 @@ def _end(processes: Sequence[subprocess.Popen[str]], folder: tempfile.TemporaryD
         process.kill()
         process.wait()
     folder.cleanup()
-
-
-def _interpreter() -> str:
-    """A Python to run a script with: inside FreeCAD ``sys.executable`` may be FreeCAD itself."""
-    if "python" in Path(sys.executable or "").name:
-        return sys.executable
-    return str(Path(sys.exec_prefix) / "bin" / "python3")

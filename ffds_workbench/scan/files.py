@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from . import e57, pcd, ply, stl, text
 from .cloud import PointCloud
+from .formats import e57, pcd, ply, stl, text
 from .normals import fused, unit_normals
 from .units import MILLIMETRES
 

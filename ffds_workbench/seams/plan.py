@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Seams from a pair of models, found and measured. Their files are written by `seams.writing`."""
+"""Seams from a pair of models, found and measured. Their files are written by `seams.output`."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -11,11 +11,11 @@ import Part
 
 from ..brep.model_files import Model
 from ..errors import InputError
-from . import report
 from .chains import directed
 from .find import joint_seams, named_seams
 from .measured import MeasuredSeam, SeamLimits, measure
 from .offsets import check_pair
+from .output import report
 from .settings import SeamSettings
 from .trust import read_trust, trust_of
 from .weldment import Weldment

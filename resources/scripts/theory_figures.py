@@ -16,8 +16,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from ffds_workbench import api
-from ffds_workbench.benchmark import paper_pictures, sheet, style
-from ffds_workbench.benchmark.paper_case import virtual_case
+from ffds_workbench.benchmark.pages import style
+from ffds_workbench.benchmark.paper_study import paper_pictures
+from ffds_workbench.benchmark.paper_study.paper_case import virtual_case
+from ffds_workbench.benchmark.simulated import sheet
 from ffds_workbench.registration.face import register_ffds, register_robust
 
 PART, SCAN = ROOT / "resources/examples/bracket.step", ROOT / "resources/examples/bracket_scan.ply"

@@ -738,10 +738,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{name} ist weder eine Fläche noch eine Punktwolke: Wählen Sie Flächen eines Teils und einen Scan.</translation>
     </message>
     <message>
-      <source>{name} is to be deformed and to be frozen: choose one.</source>
-      <translation>{name} soll verformt und festgehalten werden: Wählen Sie eines.</translation>
-    </message>
-    <message>
       <source>{part} is made from {source}: pick faces of one of these two.</source>
       <translation>{part} entsteht aus {source}: Wählen Sie Flächen eines dieser beiden.</translation>
     </message>
@@ -1086,6 +1082,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Eine Fläche von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Flächen eines Teils.</translation>
     </message>
     <message>
+      <source>A registration has no such setting: {0}.</source>
+      <translation>Diese Einstellung hat eine Registrierung nicht: {0}.</translation>
+    </message>
+    <message>
       <source>A scan is an array of shape (n, 3), not {0}.</source>
       <translation>Ein Scan ist ein Array der Form (n, 3), nicht {0}.</translation>
     </message>
@@ -1112,6 +1112,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>All faces together take their lattices from the data: name a face to choose its lattice.</source>
       <translation>Alle Flächen zusammen richten ihre Gitter nach den Daten: Nennen Sie eine Fläche, um ihr Gitter zu wählen.</translation>
+    </message>
+    <message>
+      <source>An as-built part takes its scan as it lies, and no sensor profile: align the scan first.</source>
+      <translation>Ein Ist-Teil nimmt seinen Scan so, wie er liegt, und kein Sensorprofil: Richten Sie den Scan zuerst aus.</translation>
     </message>
     <message>
       <source>An edge of {0} is named, but {1} is made from {2}: choose edges of one part.</source>
@@ -1156,10 +1160,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Face{0} has other parameters in the as-built model: use the model that register wrote.</source>
       <translation>Face{0} hat im Ist-Modell andere Parameter: Nehmen Sie das Modell, das register geschrieben hat.</translation>
-    </message>
-    <message>
-      <source>Face{0} is to be deformed and to be frozen: choose one.</source>
-      <translation>Face{0} soll verformt und fixiert werden: Wählen Sie eines von beiden.</translation>
     </message>
     <message>
       <source>Face{0} would tear off at Edge{1}, where its neighbour stays.</source>
@@ -1554,10 +1554,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan zeigt zu wenig von {0}: Seine {1} Punkte liegen an {2} Stellen, nötig sind mindestens {3}; lassen Sie die Fläche aus, oder scannen Sie sie von einer anderen Seite.</translation>
     </message>
     <message>
-      <source>The scan shows {0}, on the other side, and not {1}: name {2} instead, or register all faces together, which carries {3} along.</source>
-      <translation>Der Scan zeigt {0} auf der anderen Seite und nicht {1}: Nennen Sie stattdessen {2}, oder passen Sie alle Flächen zusammen an, was {3} mitführt.</translation>
-    </message>
-    <message>
       <source>The scan unit '{0}' is unknown: use one of {1}.</source>
       <translation>Die Einheit „{0}“ des Scans ist unbekannt: Nehmen Sie eine von {1}.</translation>
     </message>
@@ -1627,10 +1623,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The scan {0} is damaged: a point is not made of numbers.</source>
-      <translation>Der Scan {0} ist beschädigt: Ein Punkt besteht nicht aus Zahlen.</translation>
-    </message>
-    <message>
-      <source>The scan {0} is damaged: a vertex is not made of numbers.</source>
       <translation>Der Scan {0} ist beschädigt: Ein Punkt besteht nicht aus Zahlen.</translation>
     </message>
     <message>
@@ -1986,12 +1978,20 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} ist durch seine Platzierung skaliert: Machen Sie zuerst eine einfache Kopie davon.</translation>
     </message>
     <message>
+      <source>{0} is to be deformed and to be frozen: choose one.</source>
+      <translation>{0} soll verformt werden und zugleich festgehalten werden: Wählen Sie eines.</translation>
+    </message>
+    <message>
       <source>{0} lies in a part: drag it out into the document before aligning it.</source>
       <translation>{0} liegt in einem Bauteil: Ziehen Sie den Scan vor dem Ausrichten heraus ins Dokument.</translation>
     </message>
     <message>
       <source>{0} lies on another part over {1} mm only, too short for a seam.</source>
       <translation>{0} liegt nur auf {1} mm an einem anderen Teil, zu kurz für eine Naht.</translation>
+    </message>
+    <message>
+      <source>{0} source points are too few: {1} are the least.</source>
+      <translation>{0} Quellpunkte sind zu wenig: {1} sind das Mindeste.</translation>
     </message>
     <message>
       <source>{0} was not observed by the scan over {1} its length ({2}): check it before welding.</source>

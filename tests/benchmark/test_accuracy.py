@@ -2,9 +2,10 @@
 """The accuracy and speed benchmarks write their tables; their figures are those of single runs."""
 import json
 
-from ffds_workbench.benchmark import accuracy, accuracy_cases, speed, speed_whole
-from ffds_workbench.benchmark.accuracy_lines import lines
-from ffds_workbench.benchmark.parts import FAMILIES
+from ffds_workbench.benchmark import accuracy, speed, speed_whole
+from ffds_workbench.benchmark.accuracy_study import accuracy_cases
+from ffds_workbench.benchmark.accuracy_study.accuracy_lines import lines
+from ffds_workbench.benchmark.simulated.parts import FAMILIES
 
 
 def test_accuracy(tmp_path, monkeypatch):

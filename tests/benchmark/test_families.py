@@ -10,10 +10,10 @@ import Part
 import pytest
 from scipy.spatial import cKDTree
 
-from ffds_workbench.benchmark import warps
-from ffds_workbench.benchmark.families import WARPS, deformation, make_case
-from ffds_workbench.benchmark.parts import FAMILIES
-from ffds_workbench.benchmark.profile import Piece, Profile
+from ffds_workbench.benchmark.simulated import warps
+from ffds_workbench.benchmark.simulated.families import WARPS, deformation, make_case
+from ffds_workbench.benchmark.simulated.parts import FAMILIES
+from ffds_workbench.benchmark.simulated.profile import Piece, Profile
 from ffds_workbench.brep.simulated_scan import edge_points
 from ffds_workbench.scan import files
 

@@ -7,10 +7,11 @@ import json
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import page, paper_case, paper_figures
 from ffds_workbench.benchmark.interleaved import best_seconds, median_seconds
-from ffds_workbench.benchmark.paper_methods import METHODS, Judge
-from ffds_workbench.benchmark.sheet import SIZE, height, nominal
+from ffds_workbench.benchmark.pages import page
+from ffds_workbench.benchmark.paper_study import paper_case, paper_figures
+from ffds_workbench.benchmark.paper_study.paper_methods import METHODS, Judge
+from ffds_workbench.benchmark.simulated.sheet import SIZE, height, nominal
 from ffds_workbench.registration.face import ffds
 from ffds_workbench.registration.face.control_lattice import displacement_lattice
 from ffds_workbench.registration.face.face_result import FaceRegistration

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import peers, peers_environment
-from ffds_workbench.benchmark.paper_case import true_distance
-from ffds_workbench.benchmark.sheet import scan
+from ffds_workbench.benchmark import peers
+from ffds_workbench.benchmark.paper_study.paper_case import true_distance
+from ffds_workbench.benchmark.peer_study import peers_environment
+from ffds_workbench.benchmark.simulated.sheet import scan
 
 
 def test_clouds_are_what_they_say():

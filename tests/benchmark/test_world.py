@@ -13,17 +13,17 @@ import pytest
 from FreeCAD import Vector
 
 from ffds_workbench.benchmark import world
-from ffds_workbench.benchmark.world import Settings, judge, numbers
-from ffds_workbench.benchmark.world.case import Truth, bent_and_twisted, make
+from ffds_workbench.benchmark.world import ScanSettings, judge, numbers
+from ffds_workbench.benchmark.world.case import WorldTruth, bent_and_twisted, make
 
 EXACT = 1e-9
 
 
 def case(shape, folder, deformation="none", **settings):
     """The scan's points and normals, and the truth."""
-    make(shape, deformation, Settings(points=3000, normals=True, **settings), folder)
+    make(shape, deformation, ScanSettings(points=3000, normals=True, **settings), folder)
     rows = np.frombuffer((folder / "scan.ply").read_bytes().partition(b"end_header\n")[2]).reshape(-1, 6)
-    return rows[:, :3], rows[:, 3:], Truth(**np.load(folder / "truth.npz"))
+    return rows[:, :3], rows[:, 3:], WorldTruth(**np.load(folder / "truth.npz"))
 
 
 def test_points_lie_on_the_surface_with_its_normals_and_the_noise_is_along_them(tmp_path):
@@ -62,10 +62,10 @@ def test_distances_are_those_of_closed_forms():
     t, z = np.meshgrid(np.linspace(0, 2 * np.pi, 40), np.linspace(1, 29, 5))
     side = np.column_stack([10.3 * np.cos(t.ravel()), 10.3 * np.sin(t.ravel()), z.ravel()])
     uv = np.column_stack([t.ravel(), z.ravel()])
-    off = judge.distances(shape, Truth(side, side, np.zeros(200, int), uv, np.ones(200, bool), None, None))
+    off = judge.distances(shape, WorldTruth(side, side, np.zeros(200, int), uv, np.ones(200, bool), None, None))
     np.testing.assert_allclose(off, 0.3, atol=EXACT)
     away = np.roll(uv, 20, axis=0)  # steps that begin on the other side
-    off = judge.distances(shape, Truth(side, side, np.zeros(200, int), away, np.ones(200, bool), None, None))
+    off = judge.distances(shape, WorldTruth(side, side, np.zeros(200, int), away, np.ones(200, bool), None, None))
     np.testing.assert_allclose(off, 0.3, atol=EXACT)
 
 
@@ -98,7 +98,7 @@ def test_whatever_happens_to_a_file_is_a_row_and_rows_are_kept(tmp_path):
     (parts / "no.step").write_text("ISO-10303-21;\n")
     Part.makeBox(40, 30, 20).exportStep(str(parts / "box.step"))
     told: list[str] = []
-    quick = {"parts": [parts], "deformations": ["none"], "settings": Settings(points=4000)}
+    quick = {"parts": [parts], "deformations": ["none"], "settings": ScanSettings(points=4000)}
     text = world.run(out, told.append, **quick)
     rows = json.loads((out / "world.json").read_text())["rows"]
     assert [(row["file"], row["outcome"]) for row in rows] == [("no.step", "no case"), ("box.step", "written")]
@@ -108,7 +108,7 @@ def test_whatever_happens_to_a_file_is_a_row_and_rows_are_kept(tmp_path):
     before = kept.stat().st_mtime_ns
     world.run(out, told.append, **quick)
     assert kept.stat().st_mtime_ns == before
-    world.run(out, told.append, **quick | {"settings": Settings(points=3000), "limit": 0.001})
+    world.run(out, told.append, **quick | {"settings": ScanSettings(points=3000), "limit": 0.001})
     rows = json.loads((out / "world.json").read_text())["rows"]
     assert {row["exit"] for row in rows} == {None} and kept.stat().st_mtime_ns > before
 
@@ -126,7 +126,7 @@ def test_the_judge_beside_the_project_finds_the_same(shared, tmp_path):
     parts.mkdir()
     out.mkdir()
     Part.makeBox(40, 30, 20).cut(Part.makeCylinder(6, 20, Vector(20, 15, 0))).exportStep(str(parts / "box.step"))
-    world.run(out, lambda text: None, [parts], deformations=["bent-1.5"], settings=Settings(points=10_000))
+    world.run(out, lambda text: None, [parts], deformations=["bent-1.5"], settings=ScanSettings(points=10_000))
     row, = json.loads((out / "world.json").read_text())["rows"]
     folder = out / "cases" / "box.step" / "bent-1.5"
     subprocess.run([sys.executable, shared / "tools" / "evaluate.py", parts / "box.step", folder / "as_built.step",

@@ -10,9 +10,9 @@ import Part
 import pytest
 from FreeCAD import Vector
 
-from ffds_workbench.benchmark import topology_shapes
-from ffds_workbench.benchmark.families import through_step
-from ffds_workbench.benchmark.parts import FAMILIES
+from ffds_workbench.benchmark.simulated import topology_shapes
+from ffds_workbench.benchmark.simulated.families import through_step
+from ffds_workbench.benchmark.simulated.parts import FAMILIES
 from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.continuity.local_field import local_displacements
 from ffds_workbench.brep.edges import PlacedCurve, Trace

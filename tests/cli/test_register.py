@@ -67,6 +67,8 @@ BAD = {
     "lattice too fine": (["MODEL", "SCAN", "--face", "Face6", "--method", "ffds", "--lattice", "40x40"], 3, "too fine"),
     "lattice too small": (["MODEL", "SCAN", "--lattice", "3x5"], 2, "4 or more"),
     "no lattice": (["MODEL", "SCAN", "--lattice", "fine"], 2, "is no lattice"),
+    "too few source points": (["MODEL", "SCAN", "--method", "ffds", "--source-points", "9"], 2, "16 are the least"),
+    "method and isometry": (["MODEL", "SCAN", "--method", "ffds", "--isometry", "on"], 2, "needs method robust"),
     "unknown method": (["MODEL", "SCAN", "--method", "magic"], 2, "magic"),
     "unknown option": (["MODEL", "SCAN", "--magic"], 2, "Unrecognized"),
     "no document": (["MODEL", "SCAN", "--object", "Body"], 2, "is none"),

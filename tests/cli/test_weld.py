@@ -9,6 +9,7 @@ import numpy as np
 import Part
 import pytest
 
+from ffds_workbench import RESOURCES
 from ffds_workbench.cli.main import main
 
 
@@ -43,6 +44,18 @@ def test_from_scan_to_programs(job, tmp_path, capfd):
     page = (tmp_path / "job" / "report.html").read_text()
     assert re.findall(r"<h2><span>\d</span>([^<]+)", page) == ["Scan", "As-built model", "Weld seams", "Robot programs"]
     assert set(re.findall(r'(?:href|src)="([^"]+)"', page)) <= names
+
+
+def test_the_alignment_is_told_and_kept_in_the_report(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    example = RESOURCES / "examples"
+    assert main(["weld", str(example / "bracket.step"), str(example / "bracket_scan.ply"), "--face", "Face9", "--align",
+                 "fine", "--edge", "Edge7", "--out", "job", "--robot", "kuka"]) == 0
+    found = json.loads((tmp_path / "job" / "report.json").read_text())["alignment"]
+    assert found["verdict"] == "ok" and np.shape(found["T_model_scan"]) == (4, 4)
+    assert capfd.readouterr().out.count("Alignment ") == 1
+    page = (tmp_path / "job" / "report.html").read_text()
+    assert re.findall(r"<h2><span>\d</span>([^<]+)", page)[:3] == ["Alignment", "Scan", "As-built model"]
 
 
 def test_what_is_refused(job, tmp_path, capfd):

@@ -10,7 +10,8 @@ import pytest
 from ffds_workbench.api import registering
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.objects import actions, scans
-from ffds_workbench.objects.job import Settings, job_on, make_job
+from ffds_workbench.objects.jobs.registration_job import job_on, make_job
+from ffds_workbench.registration.request import RegistrationRequest
 from ffds_workbench.scan.cloud import PointCloud
 from ffds_workbench.scan.sensor.files import write_ply
 
@@ -85,7 +86,8 @@ def test_they_tell_the_skin_of_a_sheet_that_stands_turned(document, tmp_path, mo
         actions.make_as_built(sheet, item)
     beforehand = scans.as_stored(item, scan)
     actions.replace_scan(item, str(tmp_path / "with normals.ply"))
-    assert job_on(sheet, beforehand, Settings()).digest == make_job(sheet, item, Settings()).digest
+    request = RegistrationRequest()
+    assert job_on(sheet, beforehand, request).digest == make_job(sheet, item, request).digest
     built = actions.make_as_built(sheet, item)
     # Both sides went down by 1 mm, known to 0.05 mm / √30000.
     assert built.Shape.Volume == pytest.approx(sheet.Shape.Volume, rel=0.01)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import sheet
+from ffds_workbench.benchmark.simulated import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.face.control_lattice import displacement_lattice
 from ffds_workbench.registration.face.ffds import solve_lattice as fit_exactly

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import sheet
+from ffds_workbench.benchmark.simulated import sheet
 from ffds_workbench.benchmark.speed import curved_face
 from ffds_workbench.registration.face.robust_fit.face_points import face_points
 from ffds_workbench.registration.face_geometry import FaceGeometry

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import sheet
+from ffds_workbench.benchmark.simulated import sheet
 from ffds_workbench.benchmark.speed import curved_face, curved_scan
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.face.robust import register_robust

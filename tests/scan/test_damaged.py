@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark import fuzz_seeds, mutations
+from ffds_workbench.benchmark.simulated import fuzz_seeds, mutations
 from ffds_workbench.errors import InputError
-from ffds_workbench.scan import files, lzf
+from ffds_workbench.scan import files
+from ffds_workbench.scan.formats import lzf
 
 ROOT = Path(__file__).resolve().parents[2]
 hypothesis = pytest.importorskip("hypothesis")

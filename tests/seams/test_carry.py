@@ -12,10 +12,10 @@ import Part
 import pytest
 
 from ffds_workbench.errors import InputError, RefusedError
-from ffds_workbench.seams.carry import carry
+from ffds_workbench.seams.output.writing import write_seams
 from ffds_workbench.seams.plan import plan_seams
 from ffds_workbench.seams.programs.conventions import from_kuka_angles
-from ffds_workbench.seams.writing import write_seams
+from ffds_workbench.seams.taught.carry import carry
 
 POSITION, DIRECTION = 1e-4, 0.02
 """mm and degrees, as for the seams themselves: poses on a seam are carried by the frame of its edge."""

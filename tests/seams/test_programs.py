@@ -16,11 +16,11 @@ import Part
 import pytest
 
 from ffds_workbench.errors import InputError
+from ffds_workbench.seams.output.writing import write_seams
 from ffds_workbench.seams.plan import plan_seams
 from ffds_workbench.seams.programs.conventions import (abb_quaternions, from_kuka_angles, kuka_angles,
                                                        ur_rotation_vectors)
 from ffds_workbench.seams.programs.moves import RobotSettings, moves, read_frame_choice
-from ffds_workbench.seams.writing import write_seams
 
 R = 0.5**0.5
 HAND = [

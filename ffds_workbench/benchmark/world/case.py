@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from ...brep.simulated_scan import edge_points
 from ...registration.arrays import Array
 from ...scan.sensor.files import write_ply
-from .. import warps
-from ..warps import Warp
+from ..simulated import warps
+from ..simulated.warps import Warp
 from .exact_samples import ExactSamples, Triangles, draw, triangulate
-from .scene import Scene
-from .settings import Settings
+from .scene import WarpedScene
+from .settings import ScanSettings
 
 _TRUTH_POINTS = 300
 """On each face: the mean of its errors is then known within 1/√300 of their spread."""
@@ -27,7 +27,7 @@ _BUMP = 0.1, 0.1
 """Width of the bump (a Gaussian's σ) of the part's length, and its height of the width: slopes up to 6 %."""
 
 
-class Truth(NamedTuple):
+class WorldTruth(NamedTuple):
     """What is known of a case, lengths in mm; the arrays of ``truth.npz``.
 
     Attributes
@@ -46,22 +46,22 @@ class Truth(NamedTuple):
     edges: Array
 
 
-def make(shape: Part.Shape, deformation: str, settings: Settings, folder: Path) -> None:
+def make(shape: Part.Shape, deformation: str, settings: ScanSettings, folder: Path) -> None:
     """Write ``scan.ply`` and ``truth.npz`` of a deformed shape into a folder."""
     rng = np.random.default_rng(settings.seed)
     triangles = triangulate(shape)
     still = draw(shape, triangles, np.full(len(shape.Faces), _TRUTH_POINTS), rng)
     warp = _deformation(deformation, triangles, still, rng)
-    scene = Scene(triangles, shape, settings.views, warp)
+    scene = WarpedScene(triangles, shape, settings.views, warp)
     edges = edge_points(shape)
     moved = warp(edges.reshape(-1, 3)).reshape(edges.shape)
-    truth = Truth(still.points, warp(still.points), still.face, still.uv, scene.seen(still), edges, moved)
+    truth = WorldTruth(still.points, warp(still.points), still.face, still.uv, scene.seen(still), edges, moved)
     np.savez_compressed(folder / "truth.npz", **truth._asdict())
     points, normals = _scan(shape, triangles, scene, settings, rng)
     write_ply(folder / "scan.ply", points, normals if settings.normals else None)
 
 
-def _scan(shape: Part.Shape, triangles: Triangles, scene: Scene, settings: Settings, rng: np.random.Generator
+def _scan(shape: Part.Shape, triangles: Triangles, scene: WarpedScene, settings: ScanSettings, rng: np.random.Generator
           ) -> tuple[Array, Array]:
     """Points (n, 3) with noise, uniform over what is seen, and their normals."""
     area = np.bincount(triangles.face, np.linalg.norm(triangles.area_vectors, axis=1), len(shape.Faces))

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...registration.arrays import Array
-from ..sheet import to_polyline
+from ..simulated.sheet import to_polyline
 from . import numbers
-from .case import Truth
+from .case import WorldTruth
 
 FLAGS = ("observed", "bridged", "carried")
 _STEPS = 8
@@ -34,7 +34,8 @@ _SAME_POINT = 1e-7
 """Corners of the mesh are one point within this share of that diagonal."""
 
 
-def judge(nominal: Part.Shape, path: Path, truth: Truth, bands: Mapping[str, Array], floor: float) -> dict[str, Any]:
+def judge(nominal: Part.Shape, path: Path, truth: WorldTruth, bands: Mapping[str, Array],
+          floor: float) -> dict[str, Any]:
     """Everything that is found out about a written file.
 
     Parameters
@@ -61,7 +62,7 @@ def judge(nominal: Part.Shape, path: Path, truth: Truth, bands: Mapping[str, Arr
     return row
 
 
-def distances(shape: Part.Shape, truth: Truth) -> Array:
+def distances(shape: Part.Shape, truth: WorldTruth) -> Array:
     """Distances (n,) in mm of the true points from the surfaces of their faces."""
     off = np.zeros(len(truth.face))
     for index in np.unique(truth.face):
@@ -106,7 +107,7 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
     return nearest
 
 
-def _figures(shape: Part.Shape, truth: Truth, off: Array) -> dict[str, Any]:
+def _figures(shape: Part.Shape, truth: WorldTruth, off: Array) -> dict[str, Any]:
     edges = []
     for edge, before, true in zip(shape.Edges, truth.edges_nominal, truth.edges, strict=True):
         if not edge.Degenerated and np.ptp(before, axis=0).max() > 0:

@@ -11,7 +11,7 @@ import numpy as np
 import Part
 
 from ...registration.arrays import Array
-from ..sheet import to_polyline
+from ..simulated.sheet import to_polyline
 
 KINDS = ("Solids", "Shells", "Faces", "Wires", "Edges", "Vertexes")
 _NEARER = 0.3

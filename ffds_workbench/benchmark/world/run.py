@@ -22,9 +22,10 @@ from FreeCAD import Vector
 
 from ... import ROOT
 from ...errors import InputError
-from .. import page, topology_shapes
+from ..pages import page
+from ..simulated import topology_shapes
 from . import tables
-from .settings import DEFORMATIONS, Settings, check_deformations
+from .settings import DEFORMATIONS, ScanSettings, check_deformations
 
 Progress = Callable[[str], None]
 Row = dict[str, Any]
@@ -43,7 +44,7 @@ _THREADS = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
 
 
 def run(folder: Path, progress: Progress, parts: Sequence[Path] = (), primitives: bool = False,
-        deformations: Sequence[str] = DEFORMATIONS, settings: Settings | None = None, workers: int = 1,
+        deformations: Sequence[str] = DEFORMATIONS, settings: ScanSettings | None = None, workers: int = 1,
         limit: float = LIMIT) -> str:
     """Measure every model file of some folders, write ``world.json``, ``.md`` and ``.html``; returns the tables.
 
@@ -68,9 +69,9 @@ def run(folder: Path, progress: Progress, parts: Sequence[Path] = (), primitives
     if not files:
         raise InputError(f"There is no model file to measure: name a folder of {' '.join(_SUFFIXES)} files with "
                          f"--parts, or take --primitives.")
-    jobs = [Job(path, name, settings or Settings(), limit, folder / "cases" / path.name / name)
+    jobs = [WorldCase(path, name, settings or ScanSettings(), limit, folder / "cases" / path.name / name)
             for path in sorted(files, key=lambda path: path.stat().st_size) for name in deformations]
-    rows: dict[Job, Row] = {}
+    rows: dict[WorldCase, Row] = {}
     with ThreadPoolExecutor(workers) as pool:
         futures = {pool.submit(job.row): job for job in jobs}
         try:
@@ -80,21 +81,21 @@ def run(folder: Path, progress: Progress, parts: Sequence[Path] = (), primitives
                 progress(f"Case {len(rows)} of {len(jobs)}: {job.path.name}, {job.deformation}")
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
-            Job.stop_all()
+            WorldCase.stop_all()
             raise
     found = [rows[job] for job in jobs]
-    data = {"settings": asdict(settings or Settings()), "lines": [line.as_dict() for line in tables.lines(found)],
+    data = {"settings": asdict(settings or ScanSettings()), "lines": [line.as_dict() for line in tables.lines(found)],
             "rows": found}
     return page.write(folder, "world", "Model files of the world", tables.sections(found), data)
 
 
 @dataclass(frozen=True)
-class Job:
+class WorldCase:
     """One case: a model file, a deformation, how it is scanned, and the folder where it is kept."""
 
     path: Path
     deformation: str
-    settings: Settings
+    settings: ScanSettings
     limit: float
     folder: Path
 
@@ -135,7 +136,7 @@ class Job:
 
 
 @dataclass(frozen=True)
-class _End:
+class _ProcessEnd:
     """How a process ended: exit code, negative for a signal, None for out of time; the last it said; what it took."""
 
     code: int | None
@@ -148,7 +149,7 @@ class _End:
 _UNDER_WAY: set[subprocess.Popen[bytes]] = set()
 
 
-def _process(step: str, folder: Path, limit: float) -> _End:
+def _process(step: str, folder: Path, limit: float) -> _ProcessEnd:
     said, begin = folder / f"{step}.txt", time.perf_counter()
     with said.open("wb") as stream:
         process = subprocess.Popen([sys.executable, "-P", "-c", _STEP, step, str(folder)], stdin=subprocess.DEVNULL,
@@ -164,8 +165,8 @@ def _process(step: str, folder: Path, limit: float) -> _End:
     _UNDER_WAY.discard(process)
     lines = [line for line in said.read_text("utf-8", errors="replace").splitlines() if line.strip()]
     sentence = f"Killed by {signal.Signals(-code).name}." if code < 0 and not late.is_set() else ""
-    return _End(None if late.is_set() else code, sentence or (lines[-1] if lines else ""),
-                time.perf_counter() - begin, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+    return _ProcessEnd(None if late.is_set() else code, sentence or (lines[-1] if lines else ""),
+                       time.perf_counter() - begin, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 
 
 def _models(folder: Path) -> list[Path]:

@@ -7,8 +7,8 @@ import Part
 from numpy.typing import NDArray
 
 from ...registration.arrays import Array
-from .. import warps
-from ..warps import Warp
+from ..simulated import warps
+from ..simulated.warps import Warp
 from .exact_samples import ExactSamples, Triangles
 
 VIEWS = np.array([[0.6, 0.5, 0.7], [-0.7, -0.4, 0.6], [0.5, -0.8, -0.4], [-0.4, 0.7, -0.7], [0.9, -0.2, 0.3],
@@ -24,7 +24,7 @@ _SLOPE = 1.5
 """Pixels across which a surface covers its own depth: √2 and what the mesh adds."""
 
 
-class Scene:
+class WarpedScene:
     """A warped part in front of its cameras.
 
     Parameters

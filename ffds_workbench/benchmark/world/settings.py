@@ -13,7 +13,7 @@ DEFORMATIONS = ("none", "bent-0.3", "bent-1.5", "bump")
 
 
 @dataclass(frozen=True)
-class Settings:
+class ScanSettings:
     """One way to scan a part.
 
     Attributes

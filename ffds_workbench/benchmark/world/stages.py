@@ -18,11 +18,11 @@ from scipy.spatial import cKDTree
 
 from ... import api
 from ...errors import FfdsError
-from ..sheet import to_polyline
+from ..simulated.sheet import to_polyline
 from . import judge as judging
-from .case import Truth
+from .case import WorldTruth
 from .case import make as make_case
-from .settings import Settings
+from .settings import ScanSettings
 
 MADE, BUILT, REGISTERED, JUDGED = "made.json", "as_built.step", "registered.json", "judged.json"
 _FLOOR_SIGMAS, _FLOOR_SIZE = 4.0, 1e-3
@@ -68,20 +68,20 @@ def judge(folder: Path) -> None:
 STAGES = {step.__name__: step for step in (make, register, judge)}
 
 
-def _job(folder: Path) -> tuple[dict[str, Any], Settings]:
+def _job(folder: Path) -> tuple[dict[str, Any], ScanSettings]:
     job = json.loads((folder / "job.json").read_text())
-    return job, Settings(**job["settings"])
+    return job, ScanSettings(**job["settings"])
 
 
 def _made(folder: Path) -> dict[str, Any]:
     return json.loads((folder / MADE).read_text())
 
 
-def _truth(folder: Path) -> Truth:
-    return Truth(**np.load(folder / "truth.npz"))
+def _truth(folder: Path) -> WorldTruth:
+    return WorldTruth(**np.load(folder / "truth.npz"))
 
 
-def _bands(result: api.Result, truth: Truth) -> dict[str, np.ndarray]:
+def _bands(result: api.Result, truth: WorldTruth) -> dict[str, np.ndarray]:
     """Bands (mm) and flags: at each true point those of the nearest place of its face, if that has places, and at the
     places of edges."""
     joint = result.joint

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ..accuracy_lines import AccuracyLine
-from ..page import Section, Table
+from ..accuracy_study.accuracy_lines import AccuracyLine
+from ..pages.page import Section, Table
 from .judge import FLAGS
 
 Row = Mapping[str, Any]

@@ -2,7 +2,6 @@
 """Face colours and visibility in FreeCAD documents: without a GUI, in the view providers' part of the file."""
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...compat import Colour, face_colours
+from ...scan import xml_text
 
 _GUI = "GuiDocument.xml"
 _DOCUMENT = """<?xml version='1.0' encoding='utf-8'?>
@@ -38,7 +38,7 @@ def read(path: Path, name: str) -> tuple[Colour, ...]:
     with zipfile.ZipFile(path) as archive:
         if _GUI not in archive.namelist():
             return ()
-        root = ElementTree.fromstring(archive.read(_GUI))
+        root = xml_text.parse(archive.read(_GUI))
         provider = root.find(f".//ViewProvider[@name='{name}']")
         return () if provider is None else face_colours(provider, archive)
 

@@ -7,25 +7,24 @@ stands in the document (its placement and those of the parts that hold it applie
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import FreeCAD
 import Part
 
 from ...compat import write_step
 from ...errors import InputError, RefusedError
-from . import document_colours, step_colours
+from . import document_colours, reader, reading, step_colours
+from .reader import DOCUMENT, placed_shape, surface_types
 from .step_colours import Decoration
 
-_EXCHANGE = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
-_DOCUMENT = ".fcstd"
 _MOST_UNCERTAIN = 0.001
 """Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
 FORMATS = ".step .stp .iges .igs .brep .FCStd"
-OUTPUT_FORMATS = (".step", ".stp", ".brep", _DOCUMENT)
+OUTPUT_FORMATS = (".step", ".stp", ".brep", DOCUMENT)
 
 
 @dataclass(frozen=True)
@@ -62,35 +61,32 @@ def read(path: str | Path, label: str | None = None) -> Model:
         raise InputError(f"The model {path} is a folder: name a file.")
     if not path.exists():
         raise InputError(f"The model {path} does not exist.")
-    if suffix not in (*_EXCHANGE, _DOCUMENT):
+    if suffix not in reading.FORMATS:
         raise InputError(f"The model {path} is of an unknown format: use one of {FORMATS}.")
     if path.stat().st_size == 0:
         raise InputError(f"The model {path} is empty.")
-    if suffix == _DOCUMENT:
-        return _checked(path, _read_document(path, label))
-    if label is not None:
+    if suffix != DOCUMENT and label is not None:
         raise InputError(f"--object picks an object of a FreeCAD document, and {path} is none.")
-    try:
-        shape = Part.read(str(path))
-    except (RuntimeError, OSError, ValueError, Part.OCCError, FreeCAD.Base.FreeCADError) as error:
-        raise InputError(f"The model {path} cannot be read: it is damaged or not a {suffix} file.") from error
-    model = _checked(path, Model(shape, path.stem))
-    if suffix not in (".step", ".stp"):
-        return model
-    decoration = step_colours.read(path.read_text("utf-8", errors="replace"), _kinds(shape))
-    return Model(shape, decoration.product or path.stem, decoration)
+    if suffix == DOCUMENT and reader.open_document(path) is not None:
+        content = reader.read(path, label)
+        return _checked(path, Model(content.shape, content.label, content.decoration))
+    shape, about = reading.content(path, label)
+    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])), about["valid"])
 
 
-def _kinds(shape: Part.Shape) -> list[str]:
-    return [type(face.Surface).__name__ for face in shape.Faces]
+def _decoration(about: Mapping[str, Any]) -> Decoration:
+    """A decoration out of JSON, which has lists only."""
+    colours = tuple(tuple(colour) for colour in about["colours"])
+    return Decoration(about["product"], tuple(about["solids"]), tuple(about["faces"]), colours)
 
 
-def _checked(path: Path, model: Model) -> Model:
+def _checked(path: Path, model: Model, valid: bool | None = None) -> Model:
+    """``valid`` tells what the check of the shape said, if it was checked before."""
     if model.shape.isNull():
         raise InputError(f"The model {path} holds no shape: it is damaged or empty.")
     if not model.shape.Faces:
         raise InputError(f"The model {path} has no faces: FFDS deforms the faces of a solid, shell or compound.")
-    if not model.shape.isValid():
+    if not (model.shape.isValid() if valid is None else valid):
         raise InputError(f"The model {path} is not a valid shape (Part: Check geometry lists why): repair it first.")
     return model
 
@@ -109,65 +105,7 @@ def from_object(item: object) -> Model:
     colours = ()
     if getattr(item, "ViewObject", None) is not None:
         colours = tuple(map(tuple, getattr(item.ViewObject, "DiffuseColor", ())))
-    return _checked(Path(item.Label), Model(_placed_shape(item), item.Label, Decoration(colours=colours)))
-
-
-def _placed_shape(item: object) -> Part.Shape:
-    """The object's shape in the document's coordinates."""
-    shape = Part.getShape(item).copy()
-    if not shape.isNull():
-        shape.Placement = outer_placement(item).multiply(shape.Placement)
-    return shape
-
-
-def outer_placement(item: object) -> FreeCAD.Placement:
-    """From the coordinates of what holds a document object to the document's; a link does not know it itself."""
-    holder = item.getParentGeoFeatureGroup()
-    return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
-
-
-def _read_document(path: Path, label: str | None) -> Model:
-    if not zipfile.is_zipfile(path):
-        raise InputError(f"The model {path} is damaged or not a FreeCAD document.")
-    with _opened(path) as document:
-        item = _pick(path, document, label)
-        colours = document_colours.read(path, item.Name)
-        return Model(_placed_shape(item), item.Label, Decoration(colours=colours))
-
-
-@contextmanager
-def _opened(path: Path) -> Iterator[FreeCAD.Document]:
-    """The document of a file: the one that is open already and stays so, or one opened for the moment."""
-    for document in FreeCAD.listDocuments().values():
-        if document.FileName and Path(document.FileName).resolve() == path.resolve():
-            yield document
-            return
-    try:
-        document = FreeCAD.openDocument(str(path), hidden=True)
-    except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
-        raise InputError(f"The model {path} is damaged or not a FreeCAD document.") from error
-    try:
-        yield document
-    finally:
-        FreeCAD.closeDocument(document.Name)
-
-
-def _pick(path: Path, document: object, label: str | None) -> object:
-    """The object that is asked for, or the only one that stands for itself."""
-    candidates = [item for item in document.Objects if hasattr(item, "Shape") and item.Shape.Faces]
-    if label is not None:
-        named = [item for item in candidates if label in (item.Label, item.Name)]
-        if not named:
-            known = ", ".join(f"'{item.Label}'" for item in candidates) or "none"
-            raise InputError(f"{path} has no object '{label}' with faces; it has {known}.")
-        return named[0]
-    whole = [item for item in candidates if not any(hasattr(user, "Shape") for user in item.InList)]
-    if not whole:
-        raise InputError(f"{path} has no object with faces.")
-    if len(whole) > 1:
-        known = ", ".join(f"'{item.Label}'" for item in whole)
-        raise InputError(f"{path} holds several objects: pick one with --object, of {known}.")
-    return whole[0]
+    return _checked(Path(item.Label), Model(placed_shape(item), item.Label, Decoration(colours=colours)))
 
 
 def check_output(path: Path) -> None:
@@ -190,7 +128,7 @@ def write(model: Model, path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix == ".brep":
         path.write_text(model.shape.exportBrepToString(), "utf-8")
-    elif suffix == _DOCUMENT:
+    elif suffix == DOCUMENT:
         _write_document(model, path)
     else:
         _write_step(model, path)
@@ -204,7 +142,7 @@ def _write_step(model: Model, path: Path) -> None:
     if not path.exists() or not step_colours.is_complete(path):
         raise RefusedError("The STEP file could not be written whole: is the disk full?")
     decoration = replace(model.decoration, product=model.label)
-    text = step_colours.decorate(path.read_text("utf-8"), decoration, _kinds(model.shape))
+    text = step_colours.decorate(path.read_text("utf-8"), decoration, surface_types(model.shape))
     path.write_text(step_colours.with_uncertainty(text, min(_tolerance(model.shape), _MOST_UNCERTAIN)), "utf-8")
     copy = Part.read(str(path))
     if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):

@@ -11,10 +11,15 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from .document_colours import Colour
+if TYPE_CHECKING:
+    from .document_colours import Colour
 
-_ENTITY = re.compile(r"#(\d+)\s*=\s*([A-Z0-9_]*)\s*\(((?:'(?:[^']|'')*'|[^';])*)\)\s*;")
+_RECORD = re.compile(r"((?:[^';]+|'[^']*')*)(?:;|'|\Z)")
+"""Up to the next semicolon outside of a string. It fits everywhere, a stray quote included, so that it takes as long as
+the text is, whatever is damaged: a doubled quote within a string counts as two strings."""
+_ENTITY = re.compile(r"#(\d{1,18})\s*=\s*([A-Z0-9_]*)\s*\((.*)\)", re.DOTALL)
 _STRING = re.compile(r"'((?:[^']|'')*)'")
 _REFERENCE = re.compile(r"#(\d+)")
 _PRODUCT = re.compile(r"(=\s*PRODUCT\s*\(\s*)'((?:[^']|'')*)'(\s*,\s*)'((?:[^']|'')*)'")
@@ -28,6 +33,9 @@ _NAMED_COLOURS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yell
 _THROUGH_STYLE = ("PRESENTATION_STYLE_ASSIGNMENT", "PRESENTATION_STYLE_BY_CONTEXT", "SURFACE_STYLE_USAGE",
                   "SURFACE_SIDE_STYLE", "SURFACE_STYLE_FILL_AREA", "SURFACE_STYLE_RENDERING",
                   "SURFACE_STYLE_RENDERING_WITH_PROPERTIES", "FILL_AREA_STYLE", "FILL_AREA_STYLE_COLOUR")
+_BODIES = (*_SOLIDS, "SHELL_BASED_SURFACE_MODEL", "CLOSED_SHELL", "OPEN_SHELL", "ORIENTED_CLOSED_SHELL")
+_DEEPEST = 3
+"""A face has a shell, that an oriented one around it, and that a solid or a model of surfaces (ISO 10303-42)."""
 _END = b"END-ISO-10303-21;"
 
 
@@ -59,7 +67,10 @@ class _Entities:
     """The simple entities of the text: type and parameters by number."""
 
     def __init__(self, text: str) -> None:
-        self.records = {int(m[1]): (m[2], m[3]) for m in _ENTITY.finditer(text)}
+        records = (match[1].rstrip() for match in _RECORD.finditer(text))
+        found = (_ENTITY.search(record) for record in records if record.endswith(")"))
+        self.records = {int(m[1]): (m[2], m[3]) for m in found if m is not None}
+        self._colours: dict[int, Colour | None] = {}
 
     def kind(self, number: int) -> str:
         return self.records.get(number, ("", ""))[0]
@@ -86,7 +97,7 @@ class _Entities:
         kind = self.kind(number)
         if kind in ("ADVANCED_FACE", "FACE_SURFACE"):
             yield _Face(number, owners)
-        elif kind in (*_SOLIDS, "SHELL_BASED_SURFACE_MODEL", "CLOSED_SHELL", "OPEN_SHELL", "ORIENTED_CLOSED_SHELL"):
+        elif len(owners) < _DEEPEST and kind in _BODIES:
             for item in self.references(number):
                 yield from self._faces_below(item, (number, *owners))
 
@@ -95,15 +106,26 @@ class _Entities:
         kind = self.kind(number)
         parameters = self.records.get(number, ("", ""))[1]
         if kind == "COLOUR_RGB":
-            red, green, blue = (float(value) for value in _STRING.sub("", parameters).split(",")[1:4])
-            return red, green, blue, 0.0
+            return _rgb(_STRING.sub("", parameters).split(",")[1:4])
         if kind == "DRAUGHTING_PRE_DEFINED_COLOUR":
             named = _NAMED_COLOURS.get(self.name(number).lower())
             return (*map(float, named), 0.0) if named else None
-        if kind not in _THROUGH_STYLE or depth > 10:
+        if kind not in _THROUGH_STYLE or depth > len(_THROUGH_STYLE):
             return None
-        found = (self.colour(item, depth + 1) for item in self.references(number))
-        return next((colour for colour in found if colour is not None), None)
+        if number not in self._colours:
+            self._colours[number] = None  # where a chain comes back to itself
+            found = (self.colour(item, depth + 1) for item in self.references(number))
+            self._colours[number] = next((colour for colour in found if colour is not None), None)
+        return self._colours[number]
+
+
+def _rgb(values: Sequence[str]) -> Colour | None:
+    """A colour out of three numbers from 0 to 1, None where they are not."""
+    try:
+        red, green, blue = map(float, values)
+    except ValueError:
+        return None
+    return (red, green, blue, 0.0) if all(0.0 <= value <= 1.0 for value in (red, green, blue)) else None
 
 
 def read(text: str, kinds: Sequence[str]) -> Decoration:
@@ -242,6 +264,7 @@ def _encoded(name: str) -> str:
 
 
 def _decoded(text: str) -> str:
-    text = re.sub(r"\\X2\\([0-9A-Fa-f]+)\\X0\\", lambda m: bytes.fromhex(m[1]).decode("utf-16-be", "replace"), text)
+    text = re.sub(r"\\X2\\((?:[0-9A-Fa-f]{4})+)\\X0\\",
+                  lambda m: bytes.fromhex(m[1]).decode("utf-16-be", "replace"), text)
     text = re.sub(r"\\X\\([0-9A-Fa-f]{2})", lambda m: chr(int(m[1], 16)), text)
     return text.replace("''", "'").replace("\\\\", "\\")

@@ -26,11 +26,11 @@ class AlignScan(Command):
 
     def run(self) -> None:
         """Find the pose in the background, then move the scan in one undo step."""
-        from ...objects import alignment
+        from ...objects.jobs import alignment_job
         from ...registration.rigid import AMBIGUOUS
 
         part, scan = part_and_scan()
-        found = in_background(tr("Aligning the scan"), alignment.prepare(part, scan, "global"))
+        found = in_background(tr("Aligning the scan"), alignment_job.prepare(part, scan, "global"))
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
         pose = found.alignment
         if pose.verdict == AMBIGUOUS:

@@ -30,7 +30,7 @@ class FindSeams(Command):
 
     def run(self) -> None:
         """Ask for the tolerance where no edge is selected; measure in the background, then add the object."""
-        from ...objects.seam_job import SeamWishes
+        from ...objects.jobs.seam_job import SeamWishes
         from ...objects.seams import prepare
 
         part, edges, tolerance = one_part(chosen()), selected_edges(), None

@@ -97,15 +97,15 @@ def _ask_whether_to_replace(scan: Any) -> Any:
 def _replace(scan: Any, paths: list[str], unit: str) -> None:
     """Compute what depends on the scan in the background, then replace it in one undo step."""
     from ...api import read_scan
-    from ...objects.as_built import is_as_built, settings_of
-    from ...objects.job import job_on
+    from ...objects.as_built import is_as_built, request_of
+    from ...objects.jobs.registration_job import job_on
     from ...objects.scans import as_stored
 
     cloud = as_stored(scan, read_scan(paths, unit))
     for item in scan.InList:
         if is_as_built(item) and item.Scan is scan:
             in_background(tr("Computing {part}").format(part=item.Label),
-                          job_on(item.Source, cloud, settings_of(item)).run)
+                          job_on(item.Source, cloud, request_of(item)).run)
     call(scan.Document, "Replace scan", f"replace_scan({name_of(scan)}, {paths!r}, unit={unit!r})")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ...errors import InputError
-from ...objects.job import Settings
+from ...registration.request import LEAST_CONTROL_POINTS, LEAST_SOURCE_POINTS, RegistrationRequest
 from ..preferences import preferences
 from ..qt import QtCore, QtWidgets
 from ..translating import tr
@@ -16,6 +16,7 @@ from .stiffness_slider import StiffnessSlider
 
 _WIDEST = 40
 _LARGEST_GATE = 1000.0
+_MANY = 1_000_000
 
 
 def _methods() -> list[tuple[str, str]]:
@@ -39,8 +40,7 @@ class DeformationForm(QtWidgets.QWidget):
         self._lay_out()
         self._connect()
         wished = preferences()
-        self.take(Settings(method=wished.method, isometry=wished.isometry, stiffness=wished.stiffness,
-                           gate=wished.gate or None), None)
+        self._show_method(wished.method, wished.isometry, wished.stiffness, wished.gate)
         self._enable()
 
     def _make(self, scans: Sequence[Any]) -> None:
@@ -61,7 +61,7 @@ class DeformationForm(QtWidgets.QWidget):
         self._gate.setSingleStep(0.1)
         self._method = choice("FfdsMethod", _methods(), tr(
             "Robust copes with noise, gaps and clutter; FFDS as it was published; FFD by Hsu, with a lattice in space"))
-        self._source_points = spin("FfdsSourcePoints", 400, 16, 1000000,
+        self._source_points = spin("FfdsSourcePoints", RegistrationRequest().source_points, LEAST_SOURCE_POINTS, _MANY,
                                    tr("For the published methods, on each face"))
         self._isometry = choice("FfdsIsometry", _isometries(), tr("For whole sheet parts: whether they may stretch"))
         self._freeze = named(QtWidgets.QLineEdit(), "FfdsFreeze",
@@ -83,9 +83,10 @@ class DeformationForm(QtWidgets.QWidget):
 
     def _size(self, direction: str) -> tuple[Any, Any]:
         name = f"FfdsControlPoints{direction}"
-        box = spin(name, 10, 4, 400, tr("Control points in {direction}").format(direction=direction.lower()))
+        box = spin(name, 10, LEAST_CONTROL_POINTS, 400,
+                   tr("Control points in {direction}").format(direction=direction.lower()))
         slider = named(QtWidgets.QSlider(QtCore.Qt.Horizontal), f"{name}Slider", box.toolTip())
-        slider.setRange(4, _WIDEST)
+        slider.setRange(LEAST_CONTROL_POINTS, _WIDEST)
         slider.setValue(10)
         slider.valueChanged.connect(box.setValue)
         return box, slider
@@ -178,34 +179,34 @@ class DeformationForm(QtWidgets.QWidget):
                 kept[name] = None
         self._freeze.setText(", ".join(kept))
 
-    def settings(self, faces: tuple[str, ...]) -> Settings:
+    def request(self, faces: tuple[str, ...]) -> RegistrationRequest:
         """What the widgets say (InputError where that makes no sense)."""
         robust = self._method.currentData() == "robust"
         together = self.whole and robust
-        freeze = self.freeze()
-        both = [name for name in faces if name in freeze and not self.whole]
-        if both:
-            raise InputError(tr("{name} is to be deformed and to be frozen: choose one.").format(name=both[0]))
         size = tuple(box.value() for box, _ in self._sizes)
-        return Settings(None if self.whole else faces, freeze, self._method.currentData(),
-                        "auto" if self._automatic.isChecked() or together else (size[0], size[1]),
-                        self._source_points.value(), self._isometry.currentData() if together else "auto",
-                        self._stiffness.value() if robust else 1.0,
-                        self._gate.value() if robust and self._gate.value() > 0 else None)
+        return RegistrationRequest(
+            None if self.whole else faces, self._method.currentData(),
+            "auto" if self._automatic.isChecked() or together else (size[0], size[1]), self.freeze(),
+            self._source_points.value(), self._isometry.currentData() if together else "auto",
+            self._stiffness.value() if robust else 1.0,
+            self._gate.value() if robust and self._gate.value() > 0 else None)
 
-    def take(self, settings: Settings, scan: Any) -> None:
-        """Show existing settings."""
+    def take(self, request: RegistrationRequest, scan: Any) -> None:
+        """Show an existing request."""
         self.set_scan(scan)
-        self._method.setCurrentIndex(self._method.findData(settings.method))
-        self._isometry.setCurrentIndex(self._isometry.findData(settings.isometry))
-        self._source_points.setValue(settings.source_points)
-        self._stiffness.set_value(settings.stiffness)
-        self._gate.setValue(settings.gate or 0.0)
-        self._freeze.setText(", ".join(settings.freeze))
-        self._automatic.setChecked(settings.lattice == "auto")
-        if settings.lattice != "auto":
-            for (box, _), count in zip(self._sizes, settings.lattice, strict=True):
+        self._show_method(request.method, request.isometry, request.stiffness, request.gate or 0.0)
+        self._source_points.setValue(request.source_points)
+        self._freeze.setText(", ".join(request.freeze))
+        self._automatic.setChecked(request.lattice == "auto")
+        if request.lattice != "auto":
+            for (box, _), count in zip(self._sizes, request.lattice, strict=True):
                 box.setValue(count)
+
+    def _show_method(self, method: str, isometry: str, stiffness: float, gate: float) -> None:
+        self._method.setCurrentIndex(self._method.findData(method))
+        self._isometry.setCurrentIndex(self._isometry.findData(isometry))
+        self._stiffness.set_value(stiffness)
+        self._gate.setValue(gate)
 
     def show_size(self, size: tuple[int, int]) -> None:
         """Show the control points that were chosen from the data."""

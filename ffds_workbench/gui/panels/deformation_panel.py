@@ -8,9 +8,10 @@ import FreeCADGui as Gui
 import numpy as np
 
 from ...errors import FfdsError, InputError
-from ...objects.as_built import settings_of
-from ...objects.job import Job, Settings, make_job
+from ...objects.as_built import request_of
+from ...objects.jobs.registration_job import Job, make_job
 from ...objects.sources import Source, standing_for
+from ...registration.request import RegistrationRequest
 from .. import running
 from ..preferences import preferences
 from ..preview.drawing import PreviewDrawing
@@ -62,9 +63,9 @@ class DeformationPanel:
         """Start from an as-built part, or from what is selected."""
         if item is not None:
             self._source = item.Source
-            settings = settings_of(item)
-            self._faces = settings.faces or ()
-            self.form.take(settings, item.Scan)
+            request = request_of(item)
+            self._faces = request.faces or ()
+            self.form.take(request, item.Scan)
         else:
             self._pick(selected)
         if whole:
@@ -136,11 +137,11 @@ class DeformationPanel:
             raise InputError(tr("Pick the faces to deform in the 3D view; hold Ctrl for more than one."))
         if scan is None:
             raise InputError(tr("The document holds no scan: import one first."))
-        settings = self.form.settings(self._faces)
+        request = self.form.request(self._faces)
         if self._read is None or self._read[0] != (self._source, scan):
-            job = make_job(self._source, scan, settings)
+            job = make_job(self._source, scan, request)
             self._read = ((self._source, scan), job.source, job.scan)
-        return Job(self._read[1], self._read[2], settings)
+        return Job(self._read[1], self._read[2], request)
 
     def _preview(self) -> None:
         """Preview what is set now."""
@@ -174,9 +175,9 @@ class DeformationPanel:
             return
         limit = good_limit(np.concatenate([patch.before for patch in patches]))
         self._overlay.cover(*self._covered(job))
-        self._drawing.show(job.source.model.shape, patches, job.settings.freeze, limit, self._wished.lattice,
+        self._drawing.show(job.source.model.shape, patches, job.request.freeze, limit, self._wished.lattice,
                            job.source.T_document_part)
-        if job.settings.faces is not None:
+        if job.request.faces is not None:
             self.form.show_size(patches[0].size)
         self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
 
@@ -203,7 +204,7 @@ class DeformationPanel:
     def _finish(self, job: Job) -> None:
         self.form.set_busy(False)
         scan = running.name_of(self.form.scan(self._document))
-        arguments = _arguments(job.settings)
+        arguments = _arguments(job.request)
         source = running.name_of(self._source)
         item, in_place = self._item, self.form.in_place
         self._close()
@@ -256,11 +257,9 @@ class DeformationPanel:
         return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 
 
-def _arguments(settings: Settings) -> str:
-    """The settings as the arguments of a recorded line; defaults are left out."""
-    plain = Settings()
-    shown = [f"faces={list(settings.faces) if settings.faces else None}"]
-    shown += [f"{name}={getattr(settings, name)!r}"
-              for name in ("freeze", "method", "lattice", "source_points", "isometry", "stiffness", "gate")
-              if getattr(settings, name) != getattr(plain, name)]
+def _arguments(request: RegistrationRequest) -> str:
+    """A request as the arguments of a recorded line; defaults are left out."""
+    plain = vars(RegistrationRequest())
+    shown = [f"faces={list(request.faces) if request.faces else None}"]
+    shown += [f"{name}={value!r}" for name, value in vars(request).items() if name != "faces" and value != plain[name]]
     return ", ".join(shown)

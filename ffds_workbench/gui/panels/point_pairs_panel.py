@@ -9,7 +9,7 @@ import numpy as np
 from pivy import coin
 
 from ...errors import FfdsError, InputError
-from ...objects.manual_alignment import prepare
+from ...objects.jobs.manual_alignment import prepare
 from .. import running
 from ..qt import QtCore, QtWidgets, number_of
 from ..translating import said, tr

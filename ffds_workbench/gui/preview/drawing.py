@@ -28,15 +28,18 @@ class PreviewDrawing:
     def show(self, shape: Part.Shape, patches: Sequence[Patch], frozen: Collection[str], limit: float,
              with_lattice: bool, frame: Any) -> None:
         """Draw a part in its own frame, ``frame`` (4, 4) taking it to the document's."""
-        if [mesh.triangles is patch.triangles for mesh, patch in zip(self._meshes, patches, strict=False)] != (
-                [True] * max(len(patches), len(self._meshes))):
-            self._meshes = [ColouredMesh(patch.triangles, over=False) for patch in patches]
-        for mesh, patch in zip(self._meshes, patches, strict=True):
+        scanned = [patch for patch in patches if patch.registered]
+        if [mesh.triangles is patch.triangles for mesh, patch in zip(self._meshes, scanned, strict=False)] != (
+                [True] * max(len(scanned), len(self._meshes))):
+            self._meshes = [ColouredMesh(patch.triangles, over=False) for patch in scanned]
+        for mesh, patch in zip(self._meshes, scanned, strict=True):
             mesh.update(patch.points, packed_colours(patch.values, limit))
         lattices = [patch.lattice for patch in patches if patch.lattice is not None] if with_lattice else []
         others = self._rest(shape, frozenset(patch.name for patch in patches), frozenset(frozen))
         outlines = lines_node([line for patch in patches for line in patch.outline])
-        self._overlay.show([others, outlines, *(mesh.node for mesh in self._meshes), *lattice_nodes(lattices)], frame)
+        adapting = [shaded_node(patch.points, patch.triangles, PLAIN) for patch in patches if not patch.registered]
+        self._overlay.show([others, outlines, *adapting, *(mesh.node for mesh in self._meshes),
+                            *lattice_nodes(lattices)], frame)
 
     def _rest(self, shape: Part.Shape, deformed: frozenset[str], frozen: frozenset[str]) -> Any:
         """The faces that are not deformed, and the edges that are not theirs."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ...objects.job import Job
+from ...objects.jobs.registration_job import Job
 from .. import running
 from ..qt import QtCore
 from ..translating import tr
@@ -51,9 +51,9 @@ class PreviewRunner(QtCore.QObject):
         self._drop_exact()
         self._job = job
         preview = self.preview_of(job)
-        if job.settings.faces is not None:
+        if job.request.faces is not None:
             self._next = None
-            self._drawn(job, preview.patches(job.settings, True, _silent))
+            self._drawn(job, preview.patches(job.request, True, _silent))
             self._rest.start(_REST_MS)
         elif self._coarse is not None:
             self._next = job
@@ -72,7 +72,7 @@ class PreviewRunner(QtCore.QObject):
     def _begin(self, job: Job) -> None:
         preview = self.preview_of(job)
         self._told(tr("Computing the preview"))
-        self._coarse = running.Worker(lambda progress: preview.patches(job.settings, True, progress),
+        self._coarse = running.Worker(lambda progress: preview.patches(job.request, True, progress),
                                       lambda patches: self._came(job, patches), self._missed, _silent)
 
     def _came(self, job: Job, patches: list[Patch]) -> None:
@@ -100,9 +100,9 @@ class PreviewRunner(QtCore.QObject):
         if job is None:
             return
         preview = self.preview_of(job)
-        if job.settings.faces is None:
+        if job.request.faces is None:
             self._told(tr("Refining the preview"))
-        self._exact = running.Worker(lambda progress: preview.patches(job.settings, False, progress),
+        self._exact = running.Worker(lambda progress: preview.patches(job.request, False, progress),
                                      lambda patches: self._refined(job, patches), self._not_refined, _silent)
 
     def _refined(self, job: Job, patches: list[Patch]) -> None:

@@ -17,18 +17,15 @@ from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
-from ..scan_sketch import Sketch, sketch_of
 from .data import correspond, make_frames
 from .problem import Problem
+from .skin_points import SkinPoints, skin_points
 from .state import State
 from .surfaces import normals
 from .uncertainty import prior_cost
 
-_SKETCH_POINTS = 2500
 _TOO_THICK = 3.0
 """Sheets thicker than this many times the expected displacement are not taken for their far side."""
-_LEAST_THICKNESS_IN_NOISE = 8.0
-"""Noise above the thickness over this hides which side is which."""
 _CLOSER = 0.85
 """A piece has a side where its points lie closer to the part by this factor than with the other side."""
 _LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
@@ -67,19 +64,18 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
     could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
     """
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
-    noise = problem.statistics.noise
-    if not sheets or min(sheets) > _TOO_THICK * reach or noise > min(sheets) / _LEAST_THICKNESS_IN_NOISE:
+    if not sheets or min(sheets) > _TOO_THICK * reach:
         return [None], False
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
-    near = problem.distance_to_nominal < reach
-    if near.sum() < _LEAST_NEAR_POINTS:
-        return [None], False
     generator = np.random.default_rng(problem.settings.seed)
-    sketch = sketch_of(problem.sample[near], generator, _SKETCH_POINTS, finer=1)
-    distance, nearest = cKDTree(sketch.points).query(problem.sample, workers=-1)
-    known = (distance < _NORMAL_REACH_IN_SPACINGS * np.median(distance))[:, None]
+    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, min(sheets), generator)
+    if len(sketch.points) < _LEAST_NEAR_POINTS:
+        return [None], False
+    tree = cKDTree(sketch.points)
+    distance, nearest = tree.query(problem.sample, workers=-1)
+    known = (distance < _NORMAL_REACH_IN_SPACINGS * np.median(tree.query(sketch.points, k=2)[0][:, 1]))[:, None]
     pieces = smooth_pieces(sketch.points, sketch.normals)
     signs, sure = _signs(place, normal, sketch, 2 * reach)
     sides = [_one_sign_each(pieces, item[sketch.piece]) for item in signs]
@@ -142,7 +138,7 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
             float(np.abs(moved).mean()) if len(moved) else np.inf)
 
 
-def _signs(place: Array, normal: Array, sketch: Sketch, most: float) -> tuple[list[Array], Array]:
+def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tuple[list[Array], Array]:
     """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
 
     With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
@@ -181,7 +177,7 @@ def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _A
     return np.where(trusted, np.sign(mean), 0.0)[piece] * side
 
 
-def _cosines(sketch: Sketch, nearest: Index, given: Array) -> Array:
+def _cosines(sketch: SkinPoints, nearest: Index, given: Array) -> Array:
     """Mean cosine of the sketch's normals to those given (m, 3), some of them zero, of the nearest points: (n,)."""
     count = len(sketch.points)
     total = np.bincount(nearest, np.einsum("nx,nx->n", given, sketch.normals[nearest]), count)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Seams to files: tables, robot programs, the report and its picture, all of them or none."""
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...errors import InputError
+from ...output import check_writable, replacing
+from ..clearance import blocked_ways
+from ..plan import SeamPlan
+from ..programs.krl import krl_texts
+from ..programs.moves import RobotSettings, SeamMoves, moves, program_name
+from ..programs.rapid import rapid_text
+from ..programs.urscript import urscript_text
+from .picture import draw
+from .table import csv_text
+
+FORMATS = (".csv", ".src", ".mod", ".script", ".fcstd")
+_KRL_NAME_LIMIT = 24
+
+
+def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), inputs: Sequence[Path] = ()) -> None:
+    """Refuse tables and programs (``outs``), reports and pictures (``extra``) that cannot be written (InputError)."""
+    targets = [target for out in outs for target in _targets(out)] + [path for path in extra if path is not None]
+    if len({target.resolve() for target in targets}) < len(targets):
+        raise InputError("Two outputs have the same name: choose different ones.")
+    for target in targets:
+        check_writable(target, inputs)
+
+
+def _targets(path: Path) -> list[Path]:
+    """The files that an output consists of: a KRL program comes with its points."""
+    if path.suffix.lower() not in FORMATS:
+        raise InputError(f"The output {path} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script "
+                         "(Universal Robots) or .FCStd.")
+    return [path, path.with_suffix(".dat")] if path.suffix.lower() == ".src" else [path]
+
+
+def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings | None = None,
+                report_path: str | Path | None = None, picture: str | Path | None = None,
+                inputs: Sequence[str | Path] = ()) -> list[str]:
+    """Write tables and programs, by their suffixes, and the report and its picture: all of them or none.
+
+    Returns
+    -------
+    notes : sentences on what the user must know of the programs
+
+    Raises
+    ------
+    InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
+    RefusedError : the disk is full
+    """
+    outs, inputs = list(map(Path, outs)), list(map(Path, inputs))
+    report_path, picture = (None if path is None else Path(path) for path in (report_path, picture))
+    check_seam_outputs(outs, (report_path, picture), inputs)
+    extra = [path for path in (report_path, picture) if path is not None]
+    robot = robot or RobotSettings()
+    paths = [moves(seam, robot) for seam in plan.seams]
+    targets = [target for out in outs for target in _targets(out)] + extra
+    with replacing(*targets) as temporary:
+        names = dict(zip(targets, temporary, strict=True))
+        for out in outs:
+            _write_one(out, names, plan, paths, robot)
+        if report_path is not None:
+            text = json.dumps(plan.record(), indent=1, ensure_ascii=False, allow_nan=False)
+            names[report_path].write_text(text + "\n", "utf-8")
+        if picture is not None:
+            draw(names[picture], plan)
+    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
+               if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
+    return blocked_ways(plan.shape, paths) + renamed
+
+
+def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequence[SeamMoves],
+               robot: RobotSettings) -> None:
+    suffix = out.suffix.lower()
+    if suffix == ".fcstd":
+        from ..programs.trajectory import write_document
+
+        write_document(names[out], paths, robot)
+        return
+    if suffix == ".csv":
+        texts = (csv_text(plan.seams),)
+    elif suffix == ".src":
+        texts = krl_texts(out.stem, paths, robot)
+    else:
+        texts = (rapid_text if suffix == ".mod" else urscript_text)(out.stem, paths, robot),
+    for target, text in zip(_targets(out), texts, strict=True):
+        names[target].write_text(text, "utf-8")
