@@ -129,7 +129,7 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
     movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    found = correspond(problem.scan, frames, 4 * problem.statistics.noise)
+    found = correspond(problem.scan, frames, 4 * problem.lengths.start)
     walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
     normal = normals(problem.cells.nominal, problem.cells.outward)[0]
     moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]

@@ -16,8 +16,8 @@ from ...errors import RefusedError
 from ..arrays import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
 from .body_field import add_body_rows, body_informs, body_rows
-from .data import (Correspondence, correspond, find_borders, find_near_edges, make_frames, median_heights,
-                   tukey_mean_heights)
+from .data import (CellHeights, Correspondence, Scatter, correspond, find_borders, find_near_edges, make_frames,
+                   median_heights, tukey_mean_heights)
 from .joint_result import JointRegistration
 from .lattice_refinement import faces_to_refine, transfer
 from .linear import solve_normal_equations
@@ -129,15 +129,14 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 def _misfits_scan(problem: Problem, state: State) -> bool:
     """Whether the shape lies somewhere farther off the scan than its noise."""
-    return bool(misfit(problem, state.values).max() > problem.statistics.noise**2)
+    return bool(misfit(problem, state.values).max() > problem.lengths.start**2)
 
 
 def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     found = _match_scan(problem, stage, state, jet)
-    cell_values = tukey_mean_heights if stage.all_points else median_heights
-    values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
+    values = _weigh(problem, stage, found, state.values.scatter)
     cache = _renewed_cache(problem, stage, replace(state, values=values), jet)
     equations = shape_equations(problem, state.control_points, stage.bending, state.trust, cache.strain_matrices,
                                 cache.thickness_rows)
@@ -152,7 +151,7 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
                     factor_bending=stage.bending if factor is not near else cache.factor_bending)
-    return replace(state, control_points=state.control_points + step, values=values, noise=values.noise,
+    return replace(state, control_points=state.control_points + step, values=values,
                    last_step=last_step, iterations=state.iterations + 1, cache=cache)
 
 
@@ -168,6 +167,15 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     return found
 
 
+def _weigh(problem: Problem, stage: Stage, found: Correspondence, scatter: Scatter) -> CellHeights:
+    """A height and a weight for every cell."""
+    face_of_span, per_span = problem.lattices.face_of_span, problem.distance.shape[1]
+    if not stage.all_points:
+        return median_heights(found, scatter, face_of_span, per_span)
+    return tukey_mean_heights(found, scatter, face_of_span, per_span,
+                              (problem.lengths.resolution, problem.lengths.model))
+
+
 def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> StepCache:
     """The cache, renewed where the shape has moved too far since."""
     cache, control_points = state.cache, state.control_points
@@ -176,7 +184,8 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
     if stage.soft:
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
-        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, cache.borders)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
+                               problem.lengths.start, cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
             cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))

@@ -83,7 +83,7 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
     model = earlier.model if earlier else most_likely_model(seen)
     some = np.arange(0, len(seen.value), 1 + len(seen.value) // _POSE_PLACES)
     pose = Pose.of(seen.place[some], seen.body[some])
-    information = len(problem.scan) / problem.statistics.noise**2
+    information = len(problem.scan) / problem.lengths.start**2
     field = condition(model, seen, pose, 1 / pose_weight(problem.settings, information))
     spans = np.flatnonzero(cells.inside.any(axis=1))
     middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
