@@ -84,6 +84,7 @@ class Target:
 
     @cached_property
     def tree(self) -> cKDTree:
+        """Search tree of the samples."""
         return cKDTree(self.samples.points)
 
     @cached_property
@@ -202,7 +203,7 @@ class Target:
 
 
 def kept_with_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
-    """What follows from the model alone is computed for the first scan and kept for the next ones."""
+    """What ``compute`` derives from the model alone is computed for the first scan and kept for the next ones."""
     @wraps(compute)
     def kept(target: Target) -> Result:
         if compute not in target.kept:

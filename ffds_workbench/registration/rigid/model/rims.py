@@ -47,6 +47,7 @@ class Rims:
 
     @cached_property
     def tree(self) -> cKDTree:
+        """Search tree of the points."""
         return cKDTree(self.points)
 
     @cached_property
