@@ -130,8 +130,8 @@ def make_locator(raster: Raster, reach: float) -> Locator:
 
 
 def located(raster: Raster, points: Array, reach: float, locate: Locator) -> Iterator[SurfaceCoordinates]:
-    """The scan points, of ``points`` (n, 3) in mm, within reach and over the parameter range of the ``raster``, piece by
-    piece; ``locate`` from `make_locator`."""
+    """The scan points, of ``points`` (n, 3) in mm, within reach and over the parameter range of the ``raster``, piece
+    by piece; ``locate`` from `make_locator`."""
     for first in range(0, len(points), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach

@@ -92,7 +92,8 @@ def even_directions(count: int) -> Array:
 
 
 def axis_name(axis: Array) -> str:
-    """What an ``axis``, a unit vector (3,), is called: x, y or z, with a sign, where it is one of them, else its components."""
+    """What an ``axis``, a unit vector (3,), is called: x, y or z, with a sign, where it is one of them, else its
+    components."""
     largest = int(np.argmax(np.abs(axis)))
     if abs(axis[largest]) > _ALONG_AXIS_COSINE:
         return ("−" if axis[largest] < 0 else "") + "xyz"[largest]
@@ -100,7 +101,8 @@ def axis_name(axis: Array) -> str:
 
 
 def turn_name(turn: Array, near: float) -> str:
-    """A ``turn``, a rotation vector (3,) in rad and not zero, in words; within ``near`` of a half turn the axis has no sign."""
+    """A ``turn``, a rotation vector (3,) in rad and not zero, in words; within ``near`` of a half turn the axis has
+    no sign."""
     size = float(np.linalg.norm(turn))
     half = np.pi - size < near       # a half turn about an axis is one about its opposite too
     axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)

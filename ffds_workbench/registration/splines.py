@@ -154,8 +154,8 @@ class SplineSurface:
         return np.stack([tensor_product(bu[du], bv[dv], self.control_points) for du, dv in orders], axis=2)
 
     def derivative(self, du: int, dv: int) -> SplineSurface:
-        """The partial derivative, ``du`` times by u and ``dv`` times by v, itself a B-spline of lower degree (NURBS Book,
-        eq. 3.24)."""
+        """The partial derivative, ``du`` times by u and ``dv`` times by v, itself a B-spline of lower degree (NURBS
+        Book, eq. 3.24)."""
         surface = self
         for _ in range(du):
             points, knots = _differentiate(surface.control_points, surface.knots_u, surface.degree_u)

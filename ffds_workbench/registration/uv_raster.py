@@ -112,7 +112,8 @@ class Raster:
         return x - count * np.floor(x * (1 / count))
 
     def nearest_turn(self, difference: Array, axis: int) -> Array:
-        """Each ``difference`` (n,) of cell coordinates along one axis, the short way round where the direction is closed."""
+        """Each ``difference`` (n,) of cell coordinates along one axis, the short way round where the direction is
+        closed."""
         if not self.periodic[axis]:
             return difference
         count = self.shape[axis]
@@ -192,7 +193,8 @@ _ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 
 
 def frames(surface: SplineSurface, u: Array, v: Array, order: int = 2) -> list[Array]:
-    """S, S_u, S_v of a ``surface``, and for ``order`` 2 also S_uu, S_uv, S_vv, on the grid u × v, each (len(u)·len(v), 3)."""
+    """S, S_u, S_v of a ``surface``, and for ``order`` 2 also S_uu, S_uv, S_vv, on the grid u × v, each
+    (len(u)·len(v), 3)."""
     bases_u = [basis_matrix(surface.knots_u, u, surface.degree_u, k) for k in range(order + 1)]
     bases_v = [basis_matrix(surface.knots_v, v, surface.degree_v, k) for k in range(order + 1)]
     orders = [(a, b) for a, b in _ORDERS if a + b <= order]
@@ -200,7 +202,8 @@ def frames(surface: SplineSurface, u: Array, v: Array, order: int = 2) -> list[A
 
 
 def is_affine(surface: SplineSurface) -> bool:
-    """True if S(u, v) of the ``surface`` is an affine function of (u, v) to 1e-6 mm: a plane in its natural parameters."""
+    """True if S(u, v) of the ``surface`` is an affine function of (u, v) to 1e-6 mm: a plane in its natural
+    parameters."""
     u0, u1, v0, v1 = surface.range
     grid = surface.on_grid(np.linspace(u0, u1, 9), np.linspace(v0, v1, 9))
     a, b = np.linspace(0, 1, 9)[:, None, None], np.linspace(0, 1, 9)[None, :, None]

@@ -42,6 +42,10 @@ def _public(path: Path) -> Iterator[tuple[str, ast.FunctionDef, str]]:
                     yield f"{node.name}.{item.name}", item, ast.get_docstring(node) or ""
 
 
+def _is_array(annotation: ast.expr | None) -> bool:
+    return annotation is not None and bool(ARRAYS.search(ast.unparse(annotation)))
+
+
 def _gaps(name: str, function: ast.FunctionDef, of_class: str) -> Iterator[str]:
     text = ast.get_docstring(function)
     if not text:
@@ -54,9 +58,9 @@ def _gaps(name: str, function: ast.FunctionDef, of_class: str) -> Iterator[str]:
         named = re.findall(rf"(?<![\w.]){re.escape(argument.arg)}(?!\w)(.*(?:\n.*)?)", text)
         if not named:
             yield f"{name}: {argument.arg} is not explained"
-        elif argument.annotation and ARRAYS.search(ast.unparse(argument.annotation)) and not any(map(SHAPE.search, named)):
+        elif _is_array(argument.annotation) and not any(map(SHAPE.search, named)):
             yield f"{name}: {argument.arg} has no shape"
-    if function.returns and ARRAYS.search(ast.unparse(function.returns)) and not SHAPE.search(text):
+    if _is_array(function.returns) and not SHAPE.search(text):
         yield f"{name}: the shape of what it returns is not told"
     raised = {ast.unparse(node.exc.func) for node in ast.walk(function)
               if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call)}

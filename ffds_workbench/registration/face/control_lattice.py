@@ -60,7 +60,8 @@ class ControlLattice:
         return sum_repeated(basis_matrix(self.knots_u, u, derivative=derivative), self.fold_u)
 
     def basis_v(self, v: Array, derivative: int = 0) -> Array:
-        """Basis functions of the columns at v (n,), or a ``derivative`` of them: (n, columns); repeated columns added up."""
+        """Basis functions of the columns at v (n,), or a ``derivative`` of them: (n, columns); repeated columns added
+        up."""
         return sum_repeated(basis_matrix(self.knots_v, v, derivative=derivative), self.fold_v)
 
     def field(self, free_points: Array) -> SplineSurface:

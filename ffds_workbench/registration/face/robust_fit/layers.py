@@ -105,7 +105,8 @@ class Layers:
 def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     """Split the points of each block of cells at gaps along the normal, and keep the dense layers.
 
-    ``points`` on the ``raster`` of the face must not be empty. Blocks are large enough to hold about 16 points where the scan covers the face.
+    ``points`` on the ``raster`` of the face must not be empty. Blocks are large enough to hold about 16 points where
+    the scan covers the face.
     """
     block, edge = _blocks(raster, points)
     order = np.lexsort((points.height, block))

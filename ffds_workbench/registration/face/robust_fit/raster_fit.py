@@ -155,7 +155,8 @@ class RasterFit:
         return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
     def look(self, state: FitState, layers: Layers, gate: float) -> tuple[Array, Array]:
-        """Heights of k layers over the surface of a ``state``, (k,) in mm, and their weights (k,) within the ``gate`` in mm."""
+        """Heights of k layers over the surface of a ``state``, (k,) in mm, and their weights (k,) within the ``gate``
+        in mm."""
         _, residual, weight = self._weighed(self._graph(state), layers, max(gate, TUKEY_SIGMAS * layers.noise))
         return residual, weight
 
