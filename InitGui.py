@@ -3,10 +3,11 @@
 import FreeCADGui as Gui
 
 from ffds_workbench import RESOURCES
-from ffds_workbench.objects import views, waiting
+from ffds_workbench.objects import boolean_check, views, waiting
 
 views.dress_with("ffds_workbench.gui.view_providers")
 waiting.wait_with("ffds_workbench.gui.running")
+boolean_check.follow_with("ffds_workbench.gui.following")
 Gui.addLanguagePath(str(RESOURCES / "translations"))
 Gui.updateLocale()
 Gui.addIconPath(str(RESOURCES / "icons"))

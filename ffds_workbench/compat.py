@@ -38,6 +38,13 @@ def number_of(flags: Any) -> int:
     return flags.value if hasattr(flags, "value") else int(flags)
 
 
+def shortcut(key: Any, window: Any) -> Any:
+    """A QShortcut, which Qt 6 has moved."""
+    gui, widgets = qt("QtGui"), qt("QtWidgets")
+    kind = widgets.QShortcut if hasattr(widgets, "QShortcut") else gui.QShortcut
+    return kind(gui.QKeySequence(key), window)
+
+
 class Stateless:
     """Base of what FreeCAD holds as a proxy, where everything that has to be saved is in properties.
 

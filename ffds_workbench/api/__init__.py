@@ -37,7 +37,7 @@ _HOMES = {
     "..seams.plan": ("plan_seams",),
     "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
     "..seams.settings": ("SeamSettings",),
-    "..seams.output.writing": ("check_seam_outputs", "write_seams"),
+    "..seams.output.writing": ("check_seam_outputs", "program_notes", "programmed_seams", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
     ".destinations": ("check_model_output", "check_outputs"),
     ".deviating": ("Deviation", "deviation"),

@@ -84,10 +84,16 @@ class Result:
             return compare(self.part, self.shape, deformed, self.scan.points)
 
     @cached_property
-    def certificate(self) -> Certificate:
-        """Topology before and after; waits for the check for Boolean operations."""
+    def unchecked(self) -> Certificate:
+        """Topology before and after, without the check for Boolean operations: waits for nothing."""
         before, after = (condition(shape, known=known) for shape, known in
                          zip((self.nominal.shape, self.shape), self.structures, strict=True))
+        return Certificate(before, after)
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """Topology before and after; waits for the check for Boolean operations."""
+        before, after = self.unchecked.before, self.unchecked.after
         errors = self.checks.errors()
         return Certificate(replace(before, boolean_check=errors[0]), replace(after, boolean_check=errors[1]))
 
@@ -109,6 +115,11 @@ class Result:
                    "scan": record.scan_record(self.scan, noise, self.request.sensor),
                    "sheet": record.sheet_record(found.joint), "timing": self.watch.times()}
         return figures if self.aligned is None else figures | {"alignment": self.aligned.report}
+
+    @property
+    def first_report(self) -> dict[str, Any]:
+        """The JSON report as long as the check for Boolean operations goes on: waits for nothing."""
+        return self.figures | {"topology": self.unchecked.as_dict()}
 
     @cached_property
     def report(self) -> dict[str, Any]:

@@ -51,11 +51,13 @@ class Topology:
 
     Attributes
     ----------
-    counts : number of solids, shells, faces, wires, edges and vertices, as FreeCAD counts them
+    counts : number of compounds, solids, shells, faces, wires, edges and vertices, as FreeCAD counts them
     solid_faces, shell_faces : faces of each solid and of each shell
     face_wires : for each face, for each of its wires, the edges in stored order; a seam stands there twice
+    wire_senses : beside each edge in ``face_wires``, whether it runs along its curve there, seen from outside
     face_edges : edges of each face, each once
     edge_vertices : vertices of each edge, each once
+    edge_starts : the vertex where each edge's parameter range begins, −1 where there is none
     reversed_faces : whether a face is used REVERSED
     degenerate : whether an edge is a point: the pole of a sphere, the apex of a cone
     """
@@ -64,8 +66,10 @@ class Topology:
     solid_faces: Incidence
     shell_faces: Incidence
     face_wires: tuple[Incidence, ...]
+    wire_senses: tuple[tuple[tuple[bool, ...], ...], ...]
     face_edges: Incidence
     edge_vertices: Incidence
+    edge_starts: tuple[int, ...]
     reversed_faces: tuple[bool, ...]
     degenerate: tuple[bool, ...]
 
@@ -114,16 +118,20 @@ def read(shape: Part.Shape) -> Topology:
     """Adjacency of a shape."""
     faces, edges, vertices = shape.Faces, shape.Edges, shape.Vertexes
     face_number, edge_number, vertex_number = _Numbering(faces), _Numbering(edges), _Numbering(vertices)
-    counts = {"solids": len(shape.Solids), "shells": len(shape.Shells), "faces": len(faces),
-              "wires": len(shape.Wires), "edges": len(edges), "vertices": len(vertices)}
+    counts = {"compounds": len(shape.Compounds), "solids": len(shape.Solids), "shells": len(shape.Shells),
+              "faces": len(faces), "wires": len(shape.Wires), "edges": len(edges), "vertices": len(vertices)}
+    wires = [[(wire.Orientation == "Forward", wire.childShapes(False, True)) for wire in face.Wires] for face in faces]
     return Topology(
         counts=counts,
         solid_faces=tuple(face_number.all(solid.Faces) for solid in shape.Solids),
         shell_faces=tuple(face_number.all(shell.Faces) for shell in shape.Shells),
-        face_wires=tuple(tuple(edge_number.all(wire.childShapes(False, True)) for wire in face.Wires)
-                         for face in faces),
+        face_wires=tuple(tuple(edge_number.all(edges) for _, edges in of_face) for of_face in wires),
+        wire_senses=tuple(tuple(tuple((edge.Orientation == "Forward") == forward for edge in edges)
+                                for forward, edges in of_face) for of_face in wires),
         face_edges=tuple(edge_number.all(face.Edges) for face in faces),
         edge_vertices=tuple(vertex_number.all(edge.Vertexes) for edge in edges),
+        edge_starts=tuple(next((vertex_number(vertex) for vertex in edge.childShapes(False, True)
+                                if vertex.Orientation == "Forward"), -1) for edge in edges),
         reversed_faces=tuple(face.Orientation == "Reversed" for face in faces),
         degenerate=tuple(bool(edge.Degenerated) for edge in edges))
 

@@ -69,6 +69,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     robot.add_argument("--velocity", type=float, default=10.0, metavar="MM/S", help="along the seam (default: 10)")
     robot.add_argument("--approach", type=float, default=50.0, metavar="MM",
                        help="distance to approach from and retract to (default: 50)")
+    robot.add_argument("--keep-failing", action="store_true",
+                       help="write programs for seams beyond their limits as well (default: leave them out)")
 
 
 def _add_carry(commands: argparse._SubParsersAction) -> None:
@@ -134,7 +136,7 @@ def read_options(options: argparse.Namespace) -> tuple[api.RobotSettings, api.Se
     settings = api.SeamSettings(step=options.step, chord=options.chord, work_angle=math.radians(options.work_angle),
                                 travel_angle=math.radians(options.travel_angle), start=options.start,
                                 reverse=options.reverse)
-    return (api.RobotSettings(tool, base, options.velocity, options.approach), settings,
+    return (api.RobotSettings(tool, base, options.velocity, options.approach, options.keep_failing), settings,
             api.SeamLimits(**dict(options.limit)))
 
 

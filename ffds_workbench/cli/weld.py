@@ -91,13 +91,14 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     progress("Finding and measuring the seams")
     plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report,
                           wanted.settings, wanted.limits)
-    programs = [DIALECTS[dialect] for dialect in wanted.dialects]
-    outs = [folder / name for name in ("seams.csv", *programs, "seams.FCStd")]
+    weldable = bool(api.programmed_seams(plan, wanted.robot))
+    programs = [*(DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
+    outs = [folder / name for name in ("seams.csv", *programs)]
     written = api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs)
     notes = [*plan.notes, *written]
     seams = "\n".join([plan.table(), *(f"Note: {note}" for note in notes)])
-    if "kuka" in wanted.dialects:
-        programs.append("seams.dat")
+    if DIALECTS["kuka"] in programs:
+        programs.insert(-1, "seams.dat")
     steps = [
         *([] if result.aligned is None else [Step(
             "Alignment", "The scan brought onto the model by a rigid motion.", result.aligned.table())]),
@@ -107,7 +108,7 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
         Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.",
              seams, "seams.png", ["seams.csv", "seams.json"]),
         Step("Robot programs", "The same poses in each dialect, in the frame of the model.",
-             _about_robot(wanted.robot), None, [*programs, "seams.FCStd"])]
+             _about_robot(wanted.robot), None, programs)]
     with replacing(folder / PAGE) as (temporary,):
         temporary.write_text(page(result.nominal.label, "From the scan to the robot's program.", steps), "utf-8")
     return "\n\n".join([result.table(), seams])

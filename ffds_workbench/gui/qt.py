@@ -2,8 +2,8 @@
 """Qt as this FreeCAD has it: ``from .qt import QtCore, QtGui, QtWidgets``."""
 from __future__ import annotations
 
-from ..compat import execute, number_of, qt
+from ..compat import execute, number_of, qt, shortcut
 
 QtCore, QtGui, QtWidgets = qt("QtCore"), qt("QtGui"), qt("QtWidgets")
 
-__all__ = ["QtCore", "QtGui", "QtWidgets", "execute", "number_of"]
+__all__ = ["QtCore", "QtGui", "QtWidgets", "execute", "number_of", "shortcut"]

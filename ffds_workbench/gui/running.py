@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -13,7 +13,7 @@ import FreeCADGui as Gui
 from ..errors import FfdsError, RefusedError
 from .qt import QtCore, QtWidgets, execute
 from .translating import said, tr
-from .widgets import ProgressBar
+from .widgets import ProgressBar, named
 
 ACTIONS = "ffds_workbench.objects.actions"
 WORKER = "FfdsWorker"
@@ -41,12 +41,51 @@ def telling() -> Iterator[None]:
         tell(said(str(refusal)))
 
 
-def tell(sentence: str) -> None:
-    """Show one sentence in a dialog."""
-    box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Warning, "FFDS", sentence, QtWidgets.QMessageBox.Ok,
+def tell(*sentences: str) -> None:
+    """Show a sentence in a dialog, or several as a list."""
+    if len(sentences) > 1:
+        execute(_listing("FFDS", sentences, QtWidgets.QDialogButtonBox.Ok))
+        return
+    box = QtWidgets.QMessageBox(QtWidgets.QMessageBox.Warning, "FFDS", sentences[0], QtWidgets.QMessageBox.Ok,
                                 Gui.getMainWindow())
     box.setObjectName("FfdsMessage")
     execute(box)
+
+
+def ask(title: str, sentences: Sequence[str], answers: Sequence[str]) -> int:
+    """Show sentences as a list, and ask what to do; the number of the answer.
+
+    Raises
+    ------
+    Cancelled : the user pressed Cancel
+    """
+    dialog = _listing(title, sentences, QtWidgets.QDialogButtonBox.Cancel)
+    buttons = dialog.findChild(QtWidgets.QDialogButtonBox)
+    for number, text in enumerate(answers, 1):
+        button = buttons.addButton(text, QtWidgets.QDialogButtonBox.ActionRole)
+        button.clicked.connect(lambda _=False, number=number: dialog.done(number))
+    chosen = execute(dialog)
+    if not chosen:
+        raise Cancelled
+    return chosen - 1
+
+
+def _listing(title: str, sentences: Sequence[str], standard: Any) -> Any:
+    """A dialog with sentences below each other, and a button to end it."""
+    dialog = named(QtWidgets.QDialog(Gui.getMainWindow()), "FfdsMessage")
+    dialog.setWindowTitle(title)
+    listed = named(QtWidgets.QListWidget(), "FfdsSentences")
+    listed.setWordWrap(True)
+    listed.setAlternatingRowColors(True)
+    listed.addItems(list(sentences))
+    buttons = named(QtWidgets.QDialogButtonBox(standard), "FfdsAnswers")
+    buttons.accepted.connect(dialog.accept)
+    buttons.rejected.connect(dialog.reject)
+    column = QtWidgets.QVBoxLayout(dialog)
+    column.addWidget(listed)
+    column.addWidget(buttons)
+    dialog.resize(600, 90 + 40 * min(len(sentences), 8))
+    return dialog
 
 
 def name_of(item: Any) -> str:

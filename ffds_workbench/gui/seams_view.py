@@ -74,6 +74,14 @@ class SeamsView(Stateless):
         """The icon in the tree."""
         return str(RESOURCES / "icons" / "FFDS_FindSeams.svg")
 
+    def setEdit(self, vobj: Any, mode: int) -> bool:
+        """Seams lie on their part: there is nothing to drag."""
+        return False
+
+    def doubleClicked(self, vobj: Any) -> bool:
+        """Their settings are in the properties; FreeCAD would begin to drag them."""
+        return True
+
     def claimChildren(self) -> list:
         """The part stays where it is in the tree."""
         return []

@@ -4,10 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from .qt import QtWidgets
+from .qt import QtCore, QtWidgets
 
 _SHORT = 6
 """Letters of a list's entries that are seen even in a narrow panel."""
+
+
+class Form(QtWidgets.QWidget):
+    """The widget of a task panel. Enter ends the editing of a field; FreeCAD would press OK."""
+
+    def keyPressEvent(self, event: Any) -> None:
+        """As Qt asks."""
+        if event.key() not in (QtCore.Qt.Key_Return, QtCore.Qt.Key_Enter):
+            super().keyPressEvent(event)
 
 
 def named(widget: Any, name: str, tip: str = "") -> Any:

@@ -62,7 +62,7 @@ def align_scan(source: Any, scan: Any, mode: str = "global") -> Any:
 
 
 def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **settings: Any) -> Any:
-    """An as-built part beside its nominal one, which is hidden; it follows both and its settings.
+    """An as-built part beside its nominal one, which is hidden with earlier results; it follows scan and settings too.
 
     Parameters
     ----------
@@ -89,7 +89,11 @@ def make_as_built(source: Any, scan: Any, faces: Sequence[str] | None = None, **
         holder.addObject(item)
     item.recompute()
     views.dress(item, source)
-    source.Visibility = False
+    for other in (source, *_results_of(source)):
+        other.Visibility = other is item
+    for other in (item, holder):
+        if other is not None and other.isValid():
+            other.purgeTouched()
     return item
 
 
@@ -102,6 +106,8 @@ def change_as_built(item: Any, faces: Sequence[str] | None = None, scan: Any = N
     item.Scan = scan or item.Scan
     apply_request(item, wanted)
     item.recompute()
+    if item.isValid() and not item.InList:
+        item.purgeTouched()
     return item
 
 
@@ -131,6 +137,7 @@ def load_example(document: Any) -> tuple[Any, Any]:
     model = api.read_model(RESOURCES / "examples" / "bracket.step")
     part = document.addObject("Part::Feature", "Bracket")
     part.Shape = model.shape
+    part.purgeTouched()
     if getattr(part, "ViewObject", None) is not None:
         part.ViewObject.DiffuseColor = list(model.decoration.colours)
     return part, import_scan(document, str(RESOURCES / "examples" / "bracket_scan.ply"))
@@ -148,6 +155,11 @@ def export_as_built(item: Any, path: str) -> None:
 def job_of(item: Any) -> Job:
     """The registration that an as-built part stands for."""
     return make_job(item.Source, item.Scan, request_of(item))
+
+
+def _results_of(source: Any) -> list[Any]:
+    """The as-built parts that are made from a part."""
+    return [item for item in source.InList if is_as_built(item) and item.Source is source]
 
 
 def _request(faces: Sequence[str] | None, settings: dict[str, Any]) -> api.RegistrationRequest:

@@ -12,7 +12,8 @@ import numpy as np
 from ..errors import InputError
 from ..registration.request import ISOMETRY, LEAST_SOURCE_POINTS, METHODS, STIFFEST, RegistrationRequest
 from ..report.table import doubts
-from .feature import HIDDEN, READ_ONLY, Feature, Property
+from .boolean_check import LOST, RUNNING, follow
+from .feature import HIDDEN, OUTPUT, READ_ONLY, Feature, Property
 from .jobs.registration_job import Job, make_job
 from .lattices import Lattice, draw_lattices
 from .signatures import found_again, signatures
@@ -58,6 +59,9 @@ class AsBuilt(Feature):
         _figure("P95Before", "95 % of the scan are nearer than this to the nominal part"),
         _figure("MeanAfter", "Mean distance of the scan from the as-built part"),
         _figure("P95After", "95 % of the scan are nearer than this to the as-built part"),
+        Property("BooleanCheck", "App::PropertyString", "Topology",
+                 "OCCT's check for Boolean operations of the as-built part; it goes on in the background", None,
+                 READ_ONLY | OUTPUT),
         Property("Report", "App::PropertyString", "Deviation", "The report as JSON", None, READ_ONLY | HIDDEN),
         Property("Signatures", "App::PropertyStringList", "As built", "What the named faces looked like", None,
                  READ_ONLY | HIDDEN),
@@ -69,6 +73,12 @@ class AsBuilt(Feature):
                  READ_ONLY | HIDDEN),
     )
 
+    def onDocumentRestored(self, obj: Any) -> None:
+        """A document was opened: bring its object up to this version; a check that ran when it was saved is lost."""
+        super().onDocumentRestored(obj)
+        if obj.BooleanCheck == RUNNING:
+            obj.BooleanCheck = LOST
+
     def execute(self, obj: Any) -> None:
         """Recompute. What goes wrong makes the object invalid, with the sentence; its last shape stays."""
         if obj.Source is None or obj.Scan is None:
@@ -79,15 +89,17 @@ class AsBuilt(Feature):
         obj.Shape = result.shape
         obj.Placement = job.source.placement
         for name, block, figure in _FIGURES:
-            setattr(obj, name, result.report[block][figure])
-        obj.Report = json.dumps(result.report)
-        if doubt := doubts(result.report):
+            setattr(obj, name, result.figures[block][figure])
+        obj.Report = json.dumps(result.first_report)
+        if doubt := doubts(result.figures):
             FreeCAD.Console.PrintWarning(f"{obj.Label}: {doubt}\n")
         obj.Signatures = signatures(job.source.model.shape, (*(job.request.faces or ()), *job.request.freeze))
         lattices = draw_lattices(job.source.model.shape, result.registrations)
         obj.LatticeSizes = [count for item in lattices for count in item.nominal.shape[:2]]
         obj.LatticeNominal = _vectors([item.nominal for item in lattices])
         obj.LatticeAsBuilt = _vectors([item.deformed for item in lattices])
+        obj.BooleanCheck = RUNNING
+        follow(obj, result)
 
 
 def is_as_built(item: Any) -> bool:

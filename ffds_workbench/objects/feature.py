@@ -7,8 +7,8 @@ from typing import Any
 
 from ..compat import Stateless
 
-READ_ONLY, HIDDEN = 1, 4
-"""Property attributes as ``addProperty`` takes them."""
+READ_ONLY, HIDDEN, OUTPUT = 1, 4, 8
+"""Property attributes as ``addProperty`` takes them; an output does not touch its object."""
 
 
 @dataclass(frozen=True)

@@ -65,6 +65,7 @@ def add_scan(document: Any, points: Array, label: str, normals: Array | None = N
     item = document.addObject("Points::Feature", "Scan")
     item.Label = label
     set_points(item, points, normals)
+    item.purgeTouched()
     return item
 
 

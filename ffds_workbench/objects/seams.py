@@ -7,6 +7,7 @@ import io
 import json
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ import Part
 from numpy.typing import NDArray
 
 from .. import api
-from ..errors import InputError
+from ..errors import InputError, RefusedError
 from ..seams.output.table import csv_text
 from ..seams.plan import SeamPlan
 from ..seams.programs.moves import moves
@@ -69,6 +70,7 @@ class Seams(Feature):
         Property("Velocity", "App::PropertySpeed", "Robot", "Along the seam", _ROBOT.velocity),
         Property("Approach", "App::PropertyLength", "Robot", "Distance to approach from and retract to",
                  _ROBOT.approach),
+        Property("KeepFailing", "App::PropertyBool", "Robot", "Seams beyond their limits are in the programs as well"),
         Property("Holders", "App::PropertyLinkListGlobal", "Seams", "What moves the parts when it moves", None,
                  READ_ONLY | HIDDEN),
         Property("Verdicts", "App::PropertyStringList", "Result", "Seam by seam: its edges, pass or fail", None,
@@ -77,6 +79,17 @@ class Seams(Feature):
         Property("Table", "App::PropertyString", "Result", "All stations, as CSV", None, READ_ONLY | HIDDEN),
         Property("Report", "App::PropertyString", "Result", "The report as JSON", None, READ_ONLY | HIDDEN),
     )
+
+    def ensure_properties(self, obj: Any) -> None:
+        """Add the properties that the object does not have yet; its placement is the part's, and not its own."""
+        super().ensure_properties(obj)
+        obj.setEditorMode("Placement", READ_ONLY)
+        self.onChanged(obj, "Placement")
+
+    def onChanged(self, obj: Any, name: str) -> None:
+        """A property changed: seams lie on their part, and cannot be moved off it."""
+        if name == "Placement" and not obj.Placement.isIdentity():
+            obj.Placement = FreeCAD.Placement()
 
     def execute(self, obj: Any) -> None:
         """Recompute. What goes wrong makes the object invalid, with the sentence; its last seams stay."""
@@ -166,9 +179,11 @@ def stations_of(obj: Any) -> dict[str, Array]:
             for name in (rows[0] if rows else ())}
 
 
-def export_program(item: Any, path: str) -> list[str]:
+def export_program(item: Any, path: str, keep_failing: bool = False) -> list[str]:
     """Write seams as a program (.src with .dat, .mod, .script), a table (.csv), a document with trajectories (.FCStd),
     a report (.json) or a picture (.png): whole or not at all. Returns what the user must know of it, as sentences.
+
+    Seams beyond their limits are in no program, unless the object keeps them or ``keep_failing`` asks for them.
 
     Raises
     ------
@@ -178,13 +193,22 @@ def export_program(item: Any, path: str) -> list[str]:
     extra = {".json": "report_path", ".png": "picture"}
     if suffix in extra:
         return api.write_seams(plan, [], **{extra[suffix]: path})
-    return api.write_seams(plan, [path], robot_of(item))
+    robot = robot_of(item)
+    return api.write_seams(plan, [path], replace(robot, keep_failing=robot.keep_failing or keep_failing))
 
 
 def add_trajectories(item: Any) -> list[Any]:
-    """FreeCAD's own robot trajectories of seams, one object each, in their document."""
+    """FreeCAD's own robot trajectories of the seams within their limits, one object each, in their document.
+
+    Raises
+    ------
+    RefusedError : there is none
+    """
     plan, robot = _plan(item), robot_of(item)
-    added = add_moves(item.Document, [moves(seam, robot) for seam in plan.seams], robot)
+    seams = api.programmed_seams(plan, robot)
+    if not seams:
+        raise RefusedError(f"No seam of {item.Label} is within its limits: look at its report, or set KeepFailing.")
+    added = add_moves(item.Document, [moves(seam, robot) for seam in seams], robot)
     for trajectory in added:
         trajectory.purgeTouched()
     return added
@@ -193,7 +217,7 @@ def add_trajectories(item: Any) -> list[Any]:
 def robot_of(item: Any) -> api.RobotSettings:
     """The robot's settings that a Seams object holds (InputError where they make no sense)."""
     tool, base = (api.read_frame_choice(text.strip()) if text.strip() else None for text in (item.Tool, item.Base))
-    return api.RobotSettings(tool, base, item.Velocity.Value, item.Approach.Value)
+    return api.RobotSettings(tool, base, item.Velocity.Value, item.Approach.Value, item.KeepFailing)
 
 
 def _plan(item: Any) -> SeamPlan:

@@ -78,6 +78,11 @@ class BooleanChecks:
         self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
         self._checks.append(_Check(self._processes[-1], len(bodies), time.monotonic() + _PATIENCE * self._limit))
 
+    @property
+    def done(self) -> bool:
+        """Whether `errors` would give its answer at once."""
+        return all(check.done for check in self._checks)
+
     def errors(self) -> tuple[BodyErrors, ...]:
         """Number of errors found in each body of each shape, waited for."""
         found = tuple(check.errors() for check in self._checks)
@@ -92,6 +97,10 @@ class _Check:
     process: subprocess.Popen[str]
     bodies: int
     deadline: float
+
+    @property
+    def done(self) -> bool:
+        return self.process.poll() is not None or time.monotonic() > self.deadline
 
     def errors(self) -> BodyErrors:
         try:

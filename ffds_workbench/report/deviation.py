@@ -60,9 +60,15 @@ def measure(faces: Sequence[FaceGeometry], points: Array, reach: float) -> list[
     owner = np.full(len(points), -1, dtype=np.intp)
     height = np.full(len(points), np.inf)
     normal = np.zeros((len(points), 3))
+    # Along the longest side of the scan most faces are short: only points beside them are looked at.
+    axis = int(np.argmax(np.ptp(points, axis=0))) if len(points) else 0
+    order = np.argsort(points[:, axis], kind="stable")
+    along = points[order, axis]
     for number, face in enumerate(faces):
         raster = make_raster(face)
-        near = _within(raster, points, np.minimum(np.abs(height), reach))
+        middles, widest = raster.position[:, axis], reach + _cell_size(raster)
+        beside = order[slice(*np.searchsorted(along, (middles.min() - widest, middles.max() + widest)))]
+        near = beside[_within(raster, points[beside], np.minimum(np.abs(height[beside]), reach))]
         index, heights, normals = _over_face(raster, points[near], reach)
         index = near[index]
         nearer = np.abs(heights) < np.abs(height[index])
@@ -89,9 +95,13 @@ def _within(raster: Raster, points: Array, reach: Array) -> Index:
     cells = raster.position[raster.inside]
     if not len(cells):
         return np.zeros(0, dtype=np.intp)
-    cell = np.linalg.norm(np.abs(raster.tangent_u).max(axis=0) + np.abs(raster.tangent_v).max(axis=0))
     beyond = np.maximum(np.maximum(cells.min(axis=0) - points, points - cells.max(axis=0)), 0.0)
-    return np.flatnonzero(np.linalg.norm(beyond, axis=1) <= reach + cell)
+    return np.flatnonzero(np.linalg.norm(beyond, axis=1) <= reach + _cell_size(raster))
+
+
+def _cell_size(raster: Raster) -> float:
+    """No two places in a cell are farther apart, in mm."""
+    return float(np.linalg.norm(np.abs(raster.tangent_u).max(axis=0) + np.abs(raster.tangent_v).max(axis=0)))
 
 
 def _over_face(raster: Raster, points: Array, reach: float, trimmed: bool = True) -> tuple[Index, Array, Array]:

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The as-built seam against the nominal one, station by station.
 
-The topology is the same, so EdgeN is EdgeN; a station is paired with the nominal point at the same fraction of the
-edge's parameter range, which the rebuild keeps, or at the same share of its length where the ranges differ.
+The topology is the same, so EdgeN is EdgeN; a station is paired with the nominal point at the same place of the edge.
 """
 from __future__ import annotations
 
@@ -13,12 +12,11 @@ import numpy as np
 from ..errors import InputError
 from ..registration.arrays import Array
 from .frames import rotation_between
-from .sampling import Places, by_arc_length
+from .pairing import paired_fractions
+from .sampling import Places
 from .settings import SeamSettings
 from .stations import Stations, stations_at
 from .weldment import Weldment
-
-_SAME_RANGE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -61,14 +59,6 @@ def nominal_stations(nominal: Weldment, as_built: Weldment, stations: Stations, 
         here = places.stretch == number
         fraction[here] = paired_fractions(as_built, nominal, stretch.edge, fraction[here])
     return stations_at(nominal, stations.seam, Places(places.stretch, fraction, places.arc_length), settings)
-
-
-def paired_fractions(weldment: Weldment, other: Weldment, edge: int, fractions: Array) -> Array:
-    """Fractions of the same edge of another model that mark the same material points."""
-    here, there = (np.array(model.edges[edge].ParameterRange) for model in (weldment, other))
-    if np.abs(here - there).max() <= _SAME_RANGE * np.ptp(there):
-        return fractions
-    return by_arc_length(weldment, edge, other, fractions)
 
 
 def offsets(nominal: Stations, as_built: Stations) -> Offsets:

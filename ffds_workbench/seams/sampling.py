@@ -76,10 +76,10 @@ def _inverse(along: Array, lengths: Array, at: Array) -> Array:
     return np.clip(PchipInterpolator(lengths, along)(at), 0.0, 1.0)
 
 
-def by_arc_length(weldment: Weldment, edge: int, other: Weldment, fractions: Array) -> Array:
-    """Fractions on the same edge of ``other`` at the same share of its arc length."""
+def by_arc_length(weldment: Weldment, edge: int, other: Weldment, fractions: Array, backwards: bool) -> Array:
+    """Fractions on the same edge of ``other``, which may run ``backwards``, at the same share of its arc length."""
     whole = Stretch(edge, 0.0, 1.0, (0, 0))
     along, lengths = arc_lengths(weldment, whole)
     share = np.interp(fractions, along, lengths / lengths[-1])
     other_along, other_lengths = arc_lengths(other, whole)
-    return _inverse(other_along, other_lengths / other_lengths[-1], share)
+    return _inverse(other_along, other_lengths / other_lengths[-1], 1.0 - share if backwards else share)

@@ -97,12 +97,20 @@
       <translation>Mittlerer Abstand des Scans vom Sollteil</translation>
     </message>
     <message>
+      <source>OCCT's check for Boolean operations of the as-built part; it goes on in the background</source>
+      <translation>OCCTs Prüfung des Ist-Teils auf boolesche Operationen; sie läuft im Hintergrund weiter</translation>
+    </message>
+    <message>
       <source>Scan points farther than this from the as-built part are outliers; 0: a default for most scans</source>
       <translation>Scanpunkte, die weiter als dies vom Ist-Teil entfernt sind, sind Ausreißer; 0: eine Vorgabe für die meisten Scans</translation>
     </message>
     <message>
       <source>Seam by seam: its edges, pass or fail</source>
       <translation>Naht für Naht: ihre Kanten, bestanden oder nicht</translation>
+    </message>
+    <message>
+      <source>Seams beyond their limits are in the programs as well</source>
+      <translation>Auch Nähte außerhalb ihrer Grenzen kommen in die Programme</translation>
     </message>
     <message>
       <source>Show what the colours mean</source>
@@ -286,6 +294,10 @@
     <message>
       <source>Deform</source>
       <translation>Verformen</translation>
+    </message>
+    <message>
+      <source>Deform the face on the side of the sheet that the scan shows</source>
+      <translation>Die Fläche auf der Seite des Blechs verformen, die der Scan zeigt</translation>
     </message>
     <message>
       <source>Deform to scan</source>
@@ -590,6 +602,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Letzten Punkt zurücknehmen</translation>
     </message>
     <message>
+      <source>Take {face} instead</source>
+      <translation>Stattdessen {face} nehmen</translation>
+    </message>
+    <message>
       <source>The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points.</source>
       <translation>Die Ausrichtung ist nicht sicher: {reason}. Sehen Sie sich den Scan an, oder machen Sie sie rückgängig und richten Sie ihn an drei Punkten aus.</translation>
     </message>
@@ -666,6 +682,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Ganzes Teil</translation>
     </message>
     <message>
+      <source>Write all</source>
+      <translation>Alle schreiben</translation>
+    </message>
+    <message>
+      <source>Write all the same</source>
+      <translation>Trotzdem schreiben</translation>
+    </message>
+    <message>
+      <source>Write without them</source>
+      <translation>Ohne sie schreiben</translation>
+    </message>
+    <message>
       <source>after</source>
       <translation>nachher</translation>
     </message>
@@ -738,8 +766,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{name} ist weder eine Fläche noch eine Punktwolke: Wählen Sie Flächen eines Teils und einen Scan.</translation>
     </message>
     <message>
+      <source>{part} is a result: its nominal part {source} is deformed anew.</source>
+      <translation>{part} ist ein Ergebnis: Sein Nennteil {source} wird neu verformt.</translation>
+    </message>
+    <message>
       <source>{part} is made from {source}: pick faces of one of these two.</source>
       <translation>{part} entsteht aus {source}: Wählen Sie Flächen eines dieser beiden.</translation>
+    </message>
+    <message>
+      <source>{part}: the check for Boolean operations has ended: {verdict}</source>
+      <translation>{part}: Die Prüfung auf boolesche Operationen ist zu Ende: {verdict}</translation>
     </message>
     <message>
       <source>{scan}: {on_scan} of {all}, {part}: {on_part} of {all} points. Pair by pair in the same order: {colours}.</source>
@@ -1122,6 +1158,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Eine Kante von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Kanten eines Teils.</translation>
     </message>
     <message>
+      <source>Beyond their limits, and in the programs all the same: {0}.</source>
+      <translation>Außerhalb ihrer Grenzen und trotzdem in den Programmen: {0}.</translation>
+    </message>
+    <message>
+      <source>Beyond their limits, and therefore in no program: {0}.</source>
+      <translation>Außerhalb ihrer Grenzen und deshalb in keinem Programm: {0}.</translation>
+    </message>
+    <message>
       <source>Carrying the faces around along</source>
       <translation>Die Flächen ringsum werden mitgeführt</translation>
     </message>
@@ -1224,6 +1268,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>No scan point lies over a face of the model: align the scan with the model first.</source>
       <translation>Kein Scanpunkt liegt über einer Fläche des Modells: Richten Sie den Scan zuerst am Modell aus.</translation>
+    </message>
+    <message>
+      <source>No seam is within its limits, so no program was written: look at the report, set other limits, or keep failing seams (--keep-failing).</source>
+      <translation>Keine Naht liegt innerhalb ihrer Grenzen, daher wurde kein Programm geschrieben: Sehen Sie in den Bericht, setzen Sie andere Grenzen oder behalten Sie auch solche Nähte (--keep-failing).</translation>
+    </message>
+    <message>
+      <source>No seam of {0} is within its limits: look at its report, or set KeepFailing.</source>
+      <translation>Keine Naht von {0} liegt innerhalb ihrer Grenzen: Sehen Sie in den Bericht oder setzen Sie KeepFailing.</translation>
     </message>
     <message>
       <source>No seam was named: give edges, or a tolerance within which to find the joints by themselves.</source>
@@ -1364,6 +1416,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The model {0} cannot be read: it is damaged or not a {1} file.</source>
       <translation>Das Modell {0} ist nicht lesbar: Es ist beschädigt oder keine {1}-Datei.</translation>
+    </message>
+    <message>
+      <source>The model {0} cannot be read: no process could be started for it ({1}).</source>
+      <translation>Das Modell {0} ist nicht lesbar: Es ließ sich kein Prozess dafür starten ({1}).</translation>
+    </message>
+    <message>
+      <source>The model {0} cannot be read: {1}.</source>
+      <translation>Das Modell {0} ist nicht lesbar: {1}.</translation>
     </message>
     <message>
       <source>The model {0} does not exist.</source>
@@ -1818,6 +1878,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>mehrdeutig ({0} Lagen): {1}</translation>
     </message>
     <message>
+      <source>an unknown number</source>
+      <translation>eine unbekannte Zahl</translation>
+    </message>
+    <message>
       <source>an unknown number of</source>
       <translation>eine unbekannte Zahl</translation>
     </message>
@@ -1846,8 +1910,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>gemeinsame Lösung</translation>
     </message>
     <message>
+      <source>no errors</source>
+      <translation>keine Fehler</translation>
+    </message>
+    <message>
       <source>nominal part</source>
       <translation>Nennteil</translation>
+    </message>
+    <message>
+      <source>not finished in time</source>
+      <translation>nicht rechtzeitig fertig</translation>
     </message>
     <message>
       <source>only {0} % of the scan lies on the part and only {1} % of the part is covered at the best pose found</source>

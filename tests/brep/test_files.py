@@ -21,7 +21,7 @@ def _placement() -> FreeCAD.Placement:
 def _shape() -> Part.Shape:
     box = Part.makeBox(10, 20, 30)
     box.Placement = _placement()
-    return Part.makeCompound([box, Part.makeSphere(2, FreeCAD.Vector(60, 0, 0)), Part.makeCylinder(1, 2)])
+    return Part.makeCompound([box, Part.makeCone(2, 0, 3, FreeCAD.Vector(60, 0, 0)), Part.makeCylinder(1, 2)])
 
 
 def _colours(count: int) -> tuple[tuple[float, float, float, float], ...]:

@@ -5,6 +5,8 @@ OCCT's own check of the shape read back is the truth.
 """
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import Part
 import pytest
@@ -25,18 +27,19 @@ from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots
 
 
-def _angle() -> Part.Shape:
-    """An angle with a rounded inside corner and a bore through either wall."""
+def _angle(folder: Path) -> Part.Shape:
+    """An angle with a rounded inside corner and a bore through either wall, as it reads back from STEP."""
     angle = Part.makeBox(60, 40, 3).fuse(Part.makeBox(3, 40, 50)).removeSplitter()
     corner = next(edge for edge in angle.Edges if edge.CenterOfMass.distanceToPoint(Vector(3, 20, 3)) < 1e-6)
     angle = angle.makeFillet(4, [corner])
     angle = angle.cut(Part.makeCylinder(6, 20, Vector(35, 20, -5)))
-    return angle.cut(Part.makeCylinder(5, 20, Vector(-5, 20, 28), Vector(1, 0, 0)))
+    angle.cut(Part.makeCylinder(5, 20, Vector(-5, 20, 28), Vector(1, 0, 0))).exportStep(str(folder / "nominal.step"))
+    return Part.read(str(folder / "nominal.step"))
 
 
 @pytest.mark.parametrize("mode", ["one face", "all"])
 def test_step_file_passes_the_boolean_check(mode, tmp_path):
-    part = workpiece.read(_angle())
+    part = workpiece.read(_angle(tmp_path))
     if mode == "all":
         result = rebuild(part, topology_shapes.warp(part), 1e-5)
     else:

@@ -39,8 +39,12 @@ def test_everything_in_one_command(ffds, tmp_path, models):
     names = ["weld.csv", "weld.src", "weld.mod", "weld.script", "weld.FCStd"]
     done = ffds("seams", built, "--auto", "0.05", "--nominal", nominal, "--bands", "bands.json", "--start", "-20,0,0",
                 "--limit", "gap=0.1", "--out", *names, "--report", "seams.json", "--picture", "seams.png")
+    assert done.returncode == 3 and "no program was written" in done.stderr and not (tmp_path / "weld.csv").exists()
+    done = ffds("seams", built, "--auto", "0.05", "--nominal", nominal, "--bands", "bands.json", "--start", "-20,0,0",
+                "--limit", "gap=0.1", "--out", *names, "--report", "seams.json", "--picture", "seams.png",
+                "--keep-failing")
     assert done.returncode == 0, done.stderr
-    assert "fail: gap" in done.stdout
+    assert "fail: gap" in done.stdout and "in the programs all the same" in done.stdout
     text = (tmp_path / "weld.csv").read_text()
     assert text.startswith(HEAD)
     table = rows(tmp_path / "weld.csv")

@@ -204,7 +204,11 @@ def _task_dock():
 
 @pytest.fixture
 def hands(monkeypatch):
-    """Hands in an open workbench; afterwards all documents are closed and the Report view must hold no error."""
+    """Hands in an open workbench; afterwards all documents are closed and the Report view must hold no error.
+
+    Checks for Boolean operations are given up at once: they would keep the machine busy for what other tests measure.
+    `test_boolean_check` looks at how long one is waited for.
+    """
     monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
     used = Hands()
     Gui.getMainWindow().showMaximized()

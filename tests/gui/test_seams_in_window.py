@@ -13,6 +13,7 @@ from ffds_workbench.gui.commands.add_trajectory import AddTrajectory
 from ffds_workbench.gui.commands.export_program import ExportProgram
 from ffds_workbench.gui.commands.find_seams import FindSeams
 from ffds_workbench.gui.view3d.seams_drawing import FAIL, PASS, verdict_colours
+from ffds_workbench.objects import actions
 from ffds_workbench.objects.seams import stations_of, wishes_of
 
 
@@ -40,6 +41,17 @@ def type_answer(text: str):
         field.selectAll()
         QtTest.QTest.keyClicks(field, text)
         QtTest.QTest.keyClick(field, QtCore.Qt.Key_Return)
+    return press
+
+
+def answer(text: str, read: list[str]):
+    """Read the sentences of a dialog, and press the button with that text."""
+    def press(dialog):
+        listed = dialog.findChild(QtWidgets.QListWidget)
+        read.extend(listed.item(row).text() for row in range(listed.count()))
+        buttons = dialog.findChild(QtWidgets.QDialogButtonBox).buttons()
+        QtTest.QTest.mouseClick(next(item for item in buttons if item.text().replace("&", "") == text),
+                                QtCore.Qt.LeftButton)
     return press
 
 
@@ -93,10 +105,11 @@ def test_joints_are_found_by_a_tolerance_and_become_trajectories(hands, pipe, mo
     target = tmp_path / "weld.src"
     monkeypatch.setattr(QtWidgets.QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
     select(hands, seams)
-    said = hands.answer(lambda dialog: dialog.accept())
+    read: list[str] = []
+    hands.answer(answer("Write all the same", read))
     hands.command(ExportProgram)
-    hands.until(lambda: said)
-    assert "leads through the part" in said[0]
+    hands.until(target.exists)
+    assert "leads through the part" in read[0]
     assert target.with_suffix(".dat").exists() and FreeCAD.ActiveDocument is document
     document.saveAs(str(tmp_path / "pipe.FCStd"))
     FreeCAD.closeDocument(document.Name)
@@ -105,6 +118,56 @@ def test_joints_are_found_by_a_tolerance_and_become_trajectories(hands, pipe, mo
     view = again.Objects[1].ViewObject
     view.ColourBy = "Gap"
     assert view.Proxy.getIcon().endswith("FFDS_FindSeams.svg")
+
+
+@pytest.fixture
+def block(hands):
+    """A block whose upper side sank by 2 mm, its nominal part, and seams along a lower and an upper edge."""
+    document = FreeCAD.newDocument("Block")
+    parts = []
+    for name, height in (("Nominal", 20), ("Built", 18)):
+        parts.append(document.addObject("Part::Feature", name))
+        parts[-1].Shape = Part.makeBox(60, 40, height)
+    nominal, built = parts
+    nominal.Visibility = False
+    edges = [next(f"Edge{n}" for n, edge in enumerate(nominal.Shape.Edges, 1)
+                  if edge.CenterOfMass.distanceToPoint(FreeCAD.Vector(30, 0, z)) < 1e-6) for z in (0, 20)]
+    seams = actions.make_seams(built, edges, nominal=nominal)
+    Gui.ActiveDocument.ActiveView.viewIsometric()
+    Gui.ActiveDocument.ActiveView.fitAll()
+    hands.wait(300)
+    return seams, edges
+
+
+@pytest.mark.parametrize(("text", "seams_in"), [("Write without them", 1), ("Write all", 2), ("Cancel", 0)])
+def test_seams_that_fail_are_asked_about_before_the_program_is_written(hands, block, monkeypatch, tmp_path, text,
+                                                                       seams_in):
+    seams, edges = block
+    target = tmp_path / "weld.src"
+    monkeypatch.setattr(QtWidgets.QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
+    select(hands, seams)
+    read: list[str] = []
+
+    def press(dialog):
+        hands.screenshot("failing_seams")
+        answer(text, read)(dialog)
+
+    hands.answer(press)
+    hands.command(ExportProgram)
+    hands.until(lambda: read)
+    hands.wait(300)
+    assert read[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    assert target.exists() == (seams_in > 0)
+    written = (tmp_path / "weld.dat").read_text() if seams_in else ""
+    assert [name in written for name in ("XS1IN", "XS2IN")] == [seams_in >= number for number in (1, 2)]
+
+
+def test_seams_are_not_dragged_by_a_double_click(hands, block):
+    seams, _ = block
+    Gui.ActiveDocument.setEdit(seams, 1)
+    assert Gui.ActiveDocument.getInEdit() is None
+    assert seams.ViewObject.Proxy.doubleClicked(seams.ViewObject) is True
+    assert Gui.ActiveDocument.getInEdit() is None
 
 
 def test_a_cancelled_question_and_a_refusal_leave_nothing(hands, pipe):

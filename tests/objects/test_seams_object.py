@@ -49,6 +49,13 @@ def foot(shape: Part.Shape) -> str:
     return names[0]
 
 
+def test_seams_cannot_be_moved_off_their_part(document):
+    item = actions.make_seams(add(document, "Pipe", pipe_on_plate()), tolerance=0.05)
+    item.Placement = FreeCAD.Placement(FreeCAD.Vector(30, 0, 0), FreeCAD.Rotation())
+    assert item.Placement.isIdentity() and "ReadOnly" in item.getEditorMode("Placement")
+    assert item.Shape.BoundBox.XMax == pytest.approx(20, abs=CHORD)
+
+
 def test_joints_within_a_tolerance_become_lines_with_stations(document):
     part = add(document, "Pipe", pipe_on_plate())
     item = actions.make_seams(part, tolerance=0.05)

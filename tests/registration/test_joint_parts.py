@@ -17,10 +17,11 @@ from ffds_workbench.registration.joint.linear.dissection import dissect
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
+from ffds_workbench.registration.joint.surfaces import span_counts
 from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
 from ffds_workbench.registration.joint.surfaces.seam_closing import close_seams
 
-SPAN, TURNING = 8.0, np.deg2rad(25)
+SPANS, TURNING = 5.0, np.deg2rad(25)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +31,11 @@ def cylinder():
 
 @pytest.fixture(scope="module")
 def lattices(cylinder):
-    return build_lattices(cylinder.faces, SPAN, TURNING, {})
+    return lattices_of(cylinder)
+
+
+def lattices_of(part):
+    return build_lattices(part.faces, span_counts(part.faces, part.solids, SPANS, TURNING, 1e-3))
 
 
 def fitted(lattices, faces, field):
@@ -133,7 +138,7 @@ def test_fronts_solve_and_invert_like_a_dense_matrix():
 
 def test_poles_move_as_one_point():
     part = joint_part(read(Part.makeCone(0.0, 10.0, 20.0)))
-    lattices = build_lattices(part.faces, SPAN, TURNING, {})
+    lattices = lattices_of(part)
     points = close_seams(part, lattices, np.random.default_rng(0).normal(size=(lattices.count, 3)))
     apex = next(edge for edge in part.edges if edge.degenerate)
     moved = lattices.spline(apex.faces[0], points)(apex.uv[0])
@@ -160,7 +165,8 @@ def test_points_at_random_put_edges_where_they_are():
     problem = plate_problem(np.random.default_rng(11))
     still = np.zeros((problem.lattices.count, 3))
     near = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, still, None)
-    found = find_borders(near, problem.couplings.edges, problem.sides, still, problem.statistics.noise, None)
+    noise = problem.lengths.noise
+    found = find_borders(near, problem.couplings.edges, problem.sides, still, noise, noise, None)
     # The outermost of 10 points per mm² in strips of 40/32 mm or more: exponential, its deviation 0.08 mm or less.
     assert len(found.along) > 100
     assert abs(found.along.mean()) < 3 * 0.08 / np.sqrt(len(found.along))

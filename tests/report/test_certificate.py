@@ -29,7 +29,7 @@ def test_a_clean_box_is_clean():
     certificate = certify(box, box.copy())
     assert certificate.problems() == []
     enforce(certificate.before, certificate.after)
-    counts = {"solids": 1, "shells": 1, "faces": 6, "wires": 6, "edges": 12, "vertices": 8}
+    counts = {"compounds": 0, "solids": 1, "shells": 1, "faces": 6, "wires": 6, "edges": 12, "vertices": 8}
     assert certificate.as_dict() == {
         "before": counts, "after": counts, "order_kept": True, "valid": True, "closed": True,
         "max_edge_gap": {"before": pytest.approx(0, abs=1e-12), "after": pytest.approx(0, abs=1e-12)},

@@ -15,7 +15,7 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench.errors import InputError
+from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.seams.output.writing import write_seams
 from ffds_workbench.seams.plan import plan_seams
 from ffds_workbench.seams.programs.conventions import (abb_quaternions, from_kuka_angles, kuka_angles,
@@ -121,8 +121,8 @@ def assert_same(found: list, poses: np.ndarray, tools) -> None:
 def test_every_dialect_reads_back_to_the_same_poses(as_built, pipe_on_plate, tools, tmp_path):
     plan = plan_seams(as_built, auto=0.1, nominal=pipe_on_plate)
     names = ("path.csv", "path.src", "path.mod", "path.script", "path.FCStd")
-    write_seams(plan, [tmp_path / name for name in names])
-    robot = RobotSettings()
+    robot = RobotSettings(keep_failing=True)
+    write_seams(plan, [tmp_path / name for name in names], robot)
     both = [moves(seam, robot) for seam in plan.seams]
     everything = np.concatenate([one.all_poses for one in both])
     text = {path.name: path.read_text() for path in tmp_path.iterdir() if path.suffix != ".FCStd"}
@@ -153,7 +153,7 @@ def test_approach_and_retract_stand_off_along_the_torch(as_built, pipe_on_plate)
 def test_tool_base_and_velocity_in_every_dialect(as_built, pipe_on_plate, tmp_path, tools):
     plan = plan_seams(as_built, auto=0.1, nominal=pipe_on_plate)
     frame = read_frame_choice("500,-20,30.5,90,0,180")
-    robot = RobotSettings(tool=frame, base=frame, velocity=8.0)
+    robot = RobotSettings(tool=frame, base=frame, velocity=8.0, keep_failing=True)
     write_seams(plan, [tmp_path / name for name in ("p.src", "p.mod", "p.script")], robot)
     source, module, script = ((tmp_path / name).read_text() for name in ("p.src", "p.mod", "p.script"))
     for name in ("$TOOL", "$BASE"):
@@ -170,13 +170,14 @@ def test_tool_base_and_velocity_in_every_dialect(as_built, pipe_on_plate, tmp_pa
 
 def test_numbers_and_names_of_tools(as_built, pipe_on_plate, tmp_path):
     plan = plan_seams(as_built, auto=0.1, nominal=pipe_on_plate)
-    write_seams(plan, [tmp_path / "k.src"], RobotSettings(tool=3, base=7))
+    write_seams(plan, [tmp_path / "k.src"], RobotSettings(tool=3, base=7, keep_failing=True))
     assert "$TOOL=TOOL_DATA[3]" in (tmp_path / "k.src").read_text()
     assert "$BASE=BASE_DATA[7]" in (tmp_path / "k.src").read_text()
-    write_seams(plan, [tmp_path / "a.mod"], RobotSettings(tool="tGun", base="wPart"))
+    write_seams(plan, [tmp_path / "a.mod"], RobotSettings(tool="tGun", base="wPart", keep_failing=True))
     assert "tGun\\WObj:=wPart;" in (tmp_path / "a.mod").read_text()
-    for name, robot in (("x.src", RobotSettings(tool="tGun")), ("x.mod", RobotSettings(base=2)),
-                        ("x.script", RobotSettings(tool=1))):
+    for name, robot in (("x.src", RobotSettings(tool="tGun", keep_failing=True)),
+                        ("x.mod", RobotSettings(base=2, keep_failing=True)),
+                        ("x.script", RobotSettings(tool=1, keep_failing=True))):
         with pytest.raises(InputError, match="give"):
             write_seams(plan, [tmp_path / name], robot)
         assert not list(tmp_path.glob("*x*"))
@@ -184,9 +185,32 @@ def test_numbers_and_names_of_tools(as_built, pipe_on_plate, tmp_path):
         read_frame_choice("1,2,3")
 
 
+def test_programs_hold_the_seams_within_their_limits_unless_all_are_asked_for(tools, tmp_path):
+    """A block whose upper side sank by 2 mm: its upper edge is off by that, the lower one not at all."""
+    nominal, built = Part.makeBox(60, 40, 20), Part.makeBox(60, 40, 18)
+    edges = [tools.edge_at(nominal, (30, 0, z)) for z in (0, 20)]
+    plan = plan_seams(built, edges, nominal=nominal)
+    assert [bool(seam.exceeded(plan.limits)) for seam in plan.seams] == [edge == edges[1] for edge in sorted(
+        edges, key=lambda name: int(name[4:]))]
+    notes = write_seams(plan, [tmp_path / "a.src", tmp_path / "a.csv"])
+    assert notes[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    points = np.array([point for point, _ in read_krl(*((tmp_path / f"a.{kind}").read_text() for kind in (
+        "src", "dat")))])
+    assert points[1:-1, 2] == pytest.approx(0.0, abs=1e-3)
+    assert {row["seam"] for row in csv.DictReader((tmp_path / "a.csv").open())} == {"1", "2"}
+    notes = write_seams(plan, [tmp_path / "all.src"], RobotSettings(keep_failing=True))
+    assert notes[0] == f"Beyond their limits, and in the programs all the same: {edges[1]} (lateral, normal)."
+    assert len(read_krl(*((tmp_path / f"all.{kind}").read_text() for kind in ("src", "dat")))) > len(points)
+    none = plan_seams(built, edges[1:], nominal=nominal)
+    with pytest.raises(RefusedError, match="no program was written"):
+        write_seams(none, [tmp_path / "none.src"])
+    assert not list(tmp_path.glob("none*"))
+    write_seams(none, [tmp_path / "none.csv"])
+
+
 def test_program_names_suit_the_controller(as_built, pipe_on_plate, tmp_path):
     plan = plan_seams(as_built, auto=0.1, nominal=pipe_on_plate)
-    note = write_seams(plan, [tmp_path / "3-my weld.src"])[-1]
+    note = write_seams(plan, [tmp_path / "3-my weld.src"], RobotSettings(keep_failing=True))[-1]
     assert "s3_my_weld" in note
     assert "DEF s3_my_weld()" in (tmp_path / "3-my weld.src").read_text()
     assert "DEFDAT s3_my_weld" in (tmp_path / "3-my weld.dat").read_text()

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Model files: `model_file` reads and writes them whole, `step_colours` keeps names and colours in a STEP file,
-`document_colours` in a FreeCAD document. `reading` reads foreign files in a process of their own, with `reader`.
+"""Model files: `model_file` reads and writes them whole, `read_back` compares what was written with what was meant.
+
+For STEP, `step_file` writes, `step_order` (with `step_loops`) and `step_free_shapes` keep the numbers, `step_colours`
+names and colours; `document_colours` keeps those in a FreeCAD document. `reading` reads foreign files in a process of
+their own, with `reader`.
 """
 from __future__ import annotations
 

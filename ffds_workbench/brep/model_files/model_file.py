@@ -15,14 +15,15 @@ from typing import Any
 import FreeCAD
 import Part
 
-from ...compat import write_step
 from ...errors import InputError, RefusedError
-from . import document_colours, reader, reading, step_colours
-from .reader import DOCUMENT, placed_shape, surface_types
+from .. import topology
+from . import document_colours, reader, reading, step_file
+from .read_back import ReadBack, compare
+from .reader import DOCUMENT, placed_shape
 from .step_colours import Decoration
 
-_MOST_UNCERTAIN = 0.001
-"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
+_STEP = (".step", ".stp")
+_OTHER = ("", ": write .brep or .FCStd")
 FORMATS = ".step .stp .iges .igs .brep .FCStd"
 OUTPUT_FORMATS = (".step", ".stp", ".brep", DOCUMENT)
 
@@ -114,10 +115,11 @@ def check_output(path: Path) -> None:
         raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
 
 
-def write(model: Model, path: Path) -> None:
-    """Write a model to a new file; wrap it in `output.replacing` to replace an old one.
+def write(model: Model, path: Path) -> ReadBack:
+    """Write a model to a new file, and read it back; wrap it in `output.replacing` to replace an old one.
 
-    The name and the colours go into STEP and FCStd. A STEP file is read back and must hold the same faces, valid.
+    The name and the colours go into STEP and FCStd. What the file holds has the same sub-shapes under the same numbers;
+    in BREP and FCStd stored in the same way too.
 
     Raises
     ------
@@ -126,39 +128,30 @@ def write(model: Model, path: Path) -> None:
     """
     check_output(path)
     suffix = path.suffix.lower()
-    if suffix == ".brep":
-        path.write_text(model.shape.exportBrepToString(), "utf-8")
-    elif suffix == DOCUMENT:
-        _write_document(model, path)
+    if suffix in _STEP:
+        back = step_file.write(model.shape, replace(model.decoration, product=model.label), path)
+        different = back.differences(topology.read(model.shape))
+        if different:
+            raise RefusedError(f"A STEP file would {different}: write .brep or .FCStd, which keep them.")
     else:
-        _write_step(model, path)
+        back = _write_exactly(model, path)
+    if model.shape.isValid() and not back.shape.isValid():
+        raise RefusedError(f"The {suffix} file does not read back as a valid shape{_OTHER[suffix in _STEP]}.")
+    return back
 
 
-def _write_step(model: Model, path: Path) -> None:
-    try:
-        write_step(model.shape, path)
-    except (OSError, RuntimeError, Part.OCCError) as error:
-        raise RefusedError(f"The STEP file could not be written: {error}.") from error
-    if not path.exists() or not step_colours.is_complete(path):
-        raise RefusedError("The STEP file could not be written whole: is the disk full?")
-    decoration = replace(model.decoration, product=model.label)
-    text = step_colours.decorate(path.read_text("utf-8"), decoration, surface_types(model.shape))
-    path.write_text(step_colours.with_uncertainty(text, min(_tolerance(model.shape), _MOST_UNCERTAIN)), "utf-8")
-    copy = Part.read(str(path))
-    if len(copy.Faces) != len(model.shape.Faces) or _bodies(copy) != _bodies(model.shape):
-        raise RefusedError("The STEP file does not hold all faces of the result: write .brep or .FCStd.")
-    if not copy.isValid():
-        raise RefusedError("The STEP file does not read back as a valid shape: write .brep or .FCStd.")
-
-
-def _tolerance(shape: Part.Shape) -> float:
-    """Largest tolerance of an edge or vertex in mm."""
-    return max((part.Tolerance for part in (*shape.Edges, *shape.Vertexes)), default=0.0)
-
-
-def _bodies(shape: Part.Shape) -> int:
-    """Solids that have faces; a STEP file has no others."""
-    return sum(1 for solid in shape.Solids if solid.Faces)
+def _write_exactly(model: Model, path: Path) -> ReadBack:
+    suffix, written = path.suffix.lower(), topology.read(model.shape)
+    if suffix == DOCUMENT:
+        _write_document(model, path)
+        shape = reader.read(path, None).shape
+    else:
+        path.write_text(model.shape.exportBrepToString(), "utf-8")
+        shape = Part.read(str(path))
+    back = compare(suffix, model.shape, written, shape)
+    if back.topology != written or back.edges or back.vertices:
+        raise RefusedError(f"The {suffix} file does not read back as what was written: is the disk full?")
+    return back
 
 
 def _write_document(model: Model, path: Path) -> None:

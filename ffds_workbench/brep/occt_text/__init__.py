@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Open CASCADE's BREP text: `records` (the syntax), `instances` (sub-shapes per place), `curves` and `pcurves` (their
-mathematics), `curve_fit`, and `rewriting` (new geometry into old text).
+mathematics), `curve_fit`, `turned` (geometry run the other way), and `rewriting` (new geometry into old text).
 """
 from .curve_fit import crossings, fit_curve
 from .curves import Curve, Line, Spline, print_curve, read_curve

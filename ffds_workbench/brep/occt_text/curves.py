@@ -184,11 +184,12 @@ def knots_text(knots: Array) -> str:
 
 
 def print_curve(curve: Line | Conic | Spline) -> str:
-    """The record of a line, a circle in the plane, or a spline that is not periodic, whatever its dimension."""
+    """The record of a line, a conic, or a spline that is not periodic, whatever its dimension."""
     if isinstance(curve, Line):
         return f"1 {numbers_text(curve.origin)} {numbers_text(curve.direction)}"
     if isinstance(curve, Conic):
-        axes = np.concatenate([curve.origin, curve.axis_x, curve.axis_y, curve.radii])
+        normal = [np.cross(curve.axis_x, curve.axis_y)] if len(curve.origin) == 3 else []
+        axes = np.concatenate([curve.origin, *normal, curve.axis_x, curve.axis_y, curve.radii])
         return f"{curve.kind} {numbers_text(axes)}"
     if curve.periodic:
         raise ValueError("a periodic spline must be clamped first")

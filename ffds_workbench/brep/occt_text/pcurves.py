@@ -6,11 +6,13 @@ OCCT's curve types are allowed on analytic surfaces only; those become cubics he
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...errors import RefusedError
+from ...registration.arrays import Array
 from .curve_fit import fit_curve
 from .curves import Conic, Curve, Line, Spline, mapped, print_curve, read_curve
 from .instances import Chain, EdgeUse, Instances, Locations, inverse, product
@@ -91,7 +93,7 @@ class PcurveReader:
         kind = self._brep.curves_2d[index - 1].split(maxsplit=1)[0]
         if kind in "167":
             return Pcurve(curve, first, last, index)
-        return _allowed(curve, first, last)
+        return allowed(curve, first, last)
 
     def _projected(self, face: int, edge: int, surface: FaceSurface, place: Chain) -> Pcurve:
         tokens = self._brep.surfaces[surface.surface - 1].split()
@@ -107,11 +109,11 @@ class PcurveReader:
         linear, shift = axes @ matrix[:3, :3], axes @ (matrix[:3, 3] - origin)
         curve = read_curve(self._brep.curves_3d[item.curve - 1], 3)
         if isinstance(curve, Line | Conic | Spline):
-            return _allowed(mapped(curve, linear, shift), item.first, item.last)
-        return _cubic(lambda t: curve(t) @ linear.T + shift, item.first, item.last, curve.breaks())
+            return allowed(mapped(curve, linear, shift), item.first, item.last)
+        return cubic(lambda t: curve(t) @ linear.T + shift, item.first, item.last, curve.breaks())
 
 
-def _allowed(curve: Curve, first: float, last: float) -> Pcurve:
+def allowed(curve: Curve, first: float, last: float) -> Pcurve:
     """The curve itself where a B-spline surface may carry it, else a cubic.
 
     Lines, circles and clamped splines may stay. A left-handed circle may not: STEP has none.
@@ -125,9 +127,10 @@ def _allowed(curve: Curve, first: float, last: float) -> Pcurve:
             stays = not curve.periodic
         case _:
             stays = False
-    return Pcurve(curve, first, last, print_curve(curve)) if stays else _cubic(curve, first, last, curve.breaks())
+    return Pcurve(curve, first, last, print_curve(curve)) if stays else cubic(curve, first, last, curve.breaks())
 
 
-def _cubic(f: Curve, first: float, last: float, breaks: np.ndarray) -> Pcurve:
+def cubic(f: Callable[[Array], Array], first: float, last: float, breaks: Array) -> Pcurve:
+    """A cubic through a curve given as a function, (n,) parameters to (n, dim)."""
     curve = fit_curve(f, first, last, breaks, _PLANE_TOLERANCE)
     return Pcurve(curve, first, last, print_curve(curve))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import FreeCADGui as Gui
 
+from ... import api
 from ..qt import QtWidgets
-from ..running import in_background, name_of, record, tell
+from ..running import ask, in_background, name_of, record
 from ..translating import said, tr
 from .command import Command
 from .find_seams import selected_seams
@@ -37,7 +39,8 @@ class ExportProgram(Command):
 
     def run(self) -> None:
         """Ask for a file and write it."""
-        from ...objects.seams import job_of
+        from ...objects.seams import job_of, robot_of
+        from ...seams.output.writing import PROGRAMS
 
         item = selected_seams()
         stem = item.Label.replace(" ", "_")
@@ -46,9 +49,25 @@ class ExportProgram(Command):
         if not path:
             return
         path += "" if Path(path).suffix else _formats().get(kind, ".src")
-        in_background(tr("Measuring the seams"), job_of(item).run)
-        record(f"export_program({name_of(item)}, {path!r})", "notes")
-        import __main__ as console
+        plan = in_background(tr("Measuring the seams"), job_of(item).run)
+        keep_failing = False
+        if Path(path).suffix.lower() in PROGRAMS:
+            keep_failing = asked_for_failing(plan, robot_of(item))
+        record(f"export_program({name_of(item)}, {path!r}{', keep_failing=True' if keep_failing else ''})")
 
-        if console.notes:
-            tell("\n".join(map(said, console.notes)))
+
+def asked_for_failing(plan: Any, robot: api.RobotSettings) -> bool:
+    """Say what to know of a program before it is written, and ask about seams beyond their limits.
+
+    Raises
+    ------
+    Cancelled : it is not to be written
+    """
+    notes = api.program_notes(plan, robot)
+    failing = len(plan.seams) - len(api.programmed_seams(plan, robot))
+    if not notes:
+        return False
+    answers = [tr("Write without them"), tr("Write all")] if 0 < failing < len(plan.seams) else [
+        tr("Write all the same")]
+    chosen = ask(tr("Export robot program"), list(map(said, notes)), answers)
+    return failing > 0 and chosen == len(answers) - 1

@@ -45,7 +45,7 @@ class FindSeams(Command):
         which = f"edges={list(edges)}" if edges else f"tolerance={tolerance:g}"
         call(part.Document, "Find weld seams", f"make_seams({name_of(part)}, {which})")
         if plan.notes:
-            tell("\n".join(map(said, plan.notes)))
+            tell(*map(said, plan.notes))
 
 
 def selected_edges() -> tuple[str, ...]:

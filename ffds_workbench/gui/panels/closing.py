@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Closes a task panel together with its document, which FreeCAD leaves open and pointing at nothing."""
+"""When a task panel closes by itself: with Esc, and with its document; FreeCAD leaves it open, pointing at nothing.
+"""
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
 import FreeCAD
+import FreeCADGui as Gui
 
-from ..qt import QtCore
+from ..qt import QtCore, shortcut
 
 
-class WithDocument:
-    """Ends a panel when the document of that name is closed, until it is released.
+class Closing:
+    """Ends a panel when Esc is pressed, wherever the focus is, or its document is closed, until it is released.
 
     Parameters
     ----------
     name : of the document
     stop : called at once: from then on nothing may touch the document
-    close : called when FreeCAD is done with the document; not before that may the panel close
+    close : closes the panel; not called before FreeCAD is done with the document
     """
 
     def __init__(self, name: str, stop: Callable[[], Any], close: Callable[[], Any]) -> None:
         self._name, self._stop, self._close = name, stop, close
         self.gone = False
+        self._escape = shortcut(QtCore.Qt.Key_Escape, Gui.getMainWindow())
+        self._escape.activated.connect(close)
         FreeCAD.addDocumentObserver(self)
 
     def slotDeletedDocument(self, document: Any) -> None:
@@ -35,3 +39,5 @@ class WithDocument:
     def release(self) -> None:
         """Stop watching."""
         FreeCAD.removeDocumentObserver(self)
+        self._escape.setEnabled(False)
+        self._escape.deleteLater()

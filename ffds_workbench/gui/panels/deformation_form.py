@@ -2,7 +2,7 @@
 """The widgets of the deformation panel: what they show, and the settings they stand for."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...errors import InputError
@@ -10,7 +10,7 @@ from ...registration.request import LEAST_CONTROL_POINTS, LEAST_SOURCE_POINTS, R
 from ..preferences import preferences
 from ..qt import QtCore, QtWidgets
 from ..translating import tr
-from ..widgets import ProgressBar, choice, folded, length, named, spin, wrapped
+from ..widgets import Form, ProgressBar, choice, folded, length, named, spin, wrapped
 from .legend import Legend
 from .stiffness_slider import StiffnessSlider
 
@@ -27,7 +27,7 @@ def _isometries() -> list[tuple[str, str]]:
     return [(tr("From the scan"), "auto"), (tr("Inextensible"), "on"), (tr("May stretch"), "off")]
 
 
-class DeformationForm(QtWidgets.QWidget):
+class DeformationForm(Form):
     """Emits ``changed`` when a setting changes."""
 
     changed = QtCore.Signal()
@@ -75,10 +75,13 @@ class DeformationForm(QtWidgets.QWidget):
                                  "plain shapes without a history"))
         self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
         self._message.setStyleSheet("color: #b3401f")
+        self._other_side = named(QtWidgets.QPushButton(), "FfdsOtherSide",
+                                 tr("Deform the face on the side of the sheet that the scan shows"))
+        self._take_other_side: Callable[[], None] | None = None
         self._legend = named(Legend(), "FfdsLegend", tr("Deviation of the scan from the deformed faces"))
         self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._doing = wrapped("FfdsDoing")
-        for widget in (self._progress, self._doing):
+        for widget in (self._progress, self._doing, self._other_side):
             widget.setVisible(False)
 
     def _size(self, direction: str) -> tuple[Any, Any]:
@@ -110,7 +113,7 @@ class DeformationForm(QtWidgets.QWidget):
                               (tr("Freeze"), _beside(self._freeze, self._pick_frozen)), (tr("Result"), self._result)):
             form.addRow(label, widget)
         column.addWidget(folded(tr("More"), "FfdsMore", more))
-        for widget in (self._figures, self._legend, self._message, self._doing, self._progress):
+        for widget in (self._figures, self._legend, self._message, self._other_side, self._doing, self._progress):
             column.addWidget(widget)
 
     def _connect(self) -> None:
@@ -121,6 +124,7 @@ class DeformationForm(QtWidgets.QWidget):
         for widget in (self._source_points, self._gate, *(box for box, _ in self._sizes)):
             widget.valueChanged.connect(self._emit)
         self._stiffness.changed.connect(self._emit)
+        self._other_side.clicked.connect(lambda: self._take_other_side and self._take_other_side())
         self._freeze.editingFinished.connect(self._emit)
         for box, slider in self._sizes:
             box.valueChanged.connect(lambda value, slider=slider: _move(slider, value))
@@ -236,8 +240,15 @@ class DeformationForm(QtWidgets.QWidget):
         self._message.setText(sentence)
         self._message.setVisible(bool(sentence))
 
+    def offer(self, face: str, take: Callable[[], None]) -> None:
+        """Offer to take another face, until the next figures or sentence."""
+        self._take_other_side = take
+        self._other_side.setText(tr("Take {face} instead").format(face=face))
+        self._other_side.setVisible(True)
+
     def show_figures(self, figures: tuple | None, sentence: str, after: Any = None, limit: float = 1.0) -> None:
         """Show (mean, p95 before; mean, p95 after; coverage), or a sentence instead."""
+        self._other_side.setVisible(False)
         self._legend.setVisible(figures is not None)
         self._figures.setVisible(figures is not None)
         self.say(sentence)

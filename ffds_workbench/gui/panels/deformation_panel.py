@@ -7,8 +7,9 @@ from typing import Any
 import FreeCADGui as Gui
 import numpy as np
 
+from ...api.methods import OtherSideError
 from ...errors import FfdsError, InputError
-from ...objects.as_built import request_of
+from ...objects.as_built import is_as_built, request_of
 from ...objects.jobs.registration_job import Job, make_job
 from ...objects.sources import Source, standing_for
 from ...registration.request import RegistrationRequest
@@ -22,7 +23,7 @@ from ..selection import Chosen, chosen, scans_of
 from ..translating import said, tr
 from ..view3d.colours import good_limit
 from ..view3d.overlay import Overlay
-from .closing import WithDocument
+from .closing import Closing
 from .deformation_form import DeformationForm
 
 
@@ -44,19 +45,21 @@ class DeformationPanel:
         self._faces: tuple[str, ...] = ()
         self._hint, self._adding = "", False
         self._read: tuple[tuple[Any, Any], Source, Any] | None = None
+        self._drawn_of: tuple[Any, Any] | None = None
         self._worker: running.Worker | None = None
         self._wished = preferences()
         self.form = DeformationForm(scans_of(document), item is not None)
         self._take(item, chosen(), whole)
         Gui.Selection.clearSelection()
         self._overlay = Overlay(document.Name)
+        self._overlay.pick_through(scans_of(document))
         self._drawing = PreviewDrawing(self._overlay)
         self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
         self.form.destroyed.connect(self._let_go)
         self.form.changed.connect(self._preview)
         Gui.Selection.addObserver(self)
         self._watching = True
-        self._with_document = WithDocument(document.Name, self._stop, self._close)
+        self._closing = Closing(document.Name, self._stop, self._close)
         QtCore.QTimer.singleShot(0, self._preview)
 
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
@@ -81,9 +84,9 @@ class DeformationPanel:
         try:
             if selected.refusal:
                 raise InputError(selected.refusal)
-            picked = {standing_for(part): selected.faces[part.Name] for part in selected.parts}
-            if self._item in picked:
-                picked[self._source] = picked.pop(self._item)
+            picked: dict[Any, list[str]] = {}
+            for part in selected.parts:
+                picked.setdefault(self._meant(part), []).extend(selected.faces[part.Name])
             if len(picked) > 1:
                 raise InputError(tr("Faces of two parts are selected: choose those of one."))
             for part, faces in picked.items():
@@ -93,6 +96,15 @@ class DeformationPanel:
                                     ).format(name=selected.others[0]))
         except InputError as refusal:
             self._hint = said(str(refusal))
+
+    def _meant(self, part: Any) -> Any:
+        """The part to deform where ``part`` was picked: for a result its nominal one, whose faces are named alike."""
+        if not is_as_built(part) or part.Source is None:
+            return standing_for(part)
+        if part is not self._item:
+            self._hint = tr("{part} is a result: its nominal part {source} is deformed anew.").format(
+                part=part.Label, source=part.Source.Label)
+        return part.Source
 
     def _pick_faces(self, part: Any, faces: tuple[str, ...]) -> None:
         if self._item is not None and part is not self._source:
@@ -145,10 +157,13 @@ class DeformationPanel:
 
     def _preview(self) -> None:
         """Preview what is set now."""
-        if not self._watching or self._with_document.gone or self.form.busy:
+        if not self._watching or self._closing.gone or self.form.busy:
             return
         try:
             job = self._job()
+            if self._drawn_of != self._read[0]:  # figures and colours of another scan would deceive
+                self._clear("")
+                self._drawn_of = self._read[0]
             if self._wished.preview:
                 self._runner.ask(job)
             else:
@@ -166,9 +181,22 @@ class DeformationPanel:
             raise failure
         if not self._watching:
             return
+        self._clear(self._hint or said(str(failure)))
+        if isinstance(failure, OtherSideError):
+            self.form.offer(failure.shown, lambda: self._take_other_side(failure))
+
+    def _clear(self, sentence: str) -> None:
+        """Draw nothing, and say why."""
         self._overlay.show([])
         self._overlay.cover()
-        self.form.show_figures(None, self._hint or said(str(failure)))
+        self.form.show_figures(None, sentence)
+
+    def _take_other_side(self, refused: OtherSideError) -> None:
+        """Deform the face that the scan shows instead of the one on the other side of its sheet."""
+        names = (refused.shown if name == refused.named else name for name in self._faces)
+        self._faces = tuple(dict.fromkeys(names))
+        self._show_picked()
+        self._preview()
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
         if not self._watching:
@@ -214,14 +242,20 @@ class DeformationPanel:
             else:
                 line = f"{'replace_in_place' if in_place else 'make_as_built'}({source}, {scan}, {arguments})"
             running.call(self._document, "Deform to scan", line)
+            made = item or (self._source if in_place else self._newest())
+            Gui.Selection.addSelection(made.Document.Name, made.Name)
+
+    def _newest(self) -> Any:
+        """The as-built part that was made last."""
+        return [item for item in self._document.Objects if is_as_built(item)][-1]
 
     def _failed(self, failure: BaseException) -> None:
         self._worker = None
         self.form.set_busy(False)
-        if isinstance(failure, FfdsError):
-            running.tell(said(str(failure)))
-        else:
+        if not isinstance(failure, FfdsError):
             raise failure
+        self._draw_nothing(failure)
+        running.tell(said(str(failure)))
 
     def reject(self) -> bool:
         """Cancel: drop running work and leave the document as it is."""
@@ -241,7 +275,7 @@ class DeformationPanel:
         self._watching = False
         try:
             Gui.Selection.removeObserver(self)
-            self._with_document.release()
+            self._closing.release()
             self._stop()
         finally:
             self._overlay.remove()

@@ -23,8 +23,8 @@ from ..qt import QtWidgets, number_of
 from ..translating import tr
 from ..view3d.colours import good_limit, packed_colours
 from ..view3d.overlay import Overlay, foremost, lines_node, mesh_node, points_node
-from ..widgets import choice, length, named, wrapped
-from .closing import WithDocument
+from ..widgets import Form, choice, length, named, wrapped
+from .closing import Closing
 from .legend import Legend
 
 Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ class DeviationPanel:
     def __init__(self, part: Any, scan: Any, found: list[tuple[str, api.Deviation]]) -> None:
         self._part, self._scan, self._found = part, scan, dict(found)
         self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
-        self.form = QtWidgets.QWidget()
+        self.form = Form()
         self.form.setWindowTitle(tr("Deviation"))
         self._state = choice("FfdsState", [(name, name) for name, _ in found],
                              tr("Before or after the deformation"))
@@ -80,7 +80,8 @@ class DeviationPanel:
         self._view = Gui.getDocument(self._document).ActiveView
         self._overlay = Overlay(self._document)
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
-        self._with_document = WithDocument(self._document, lambda: None, self._close)
+        Gui.Selection.clearSelection()  # what is selected shines through, in a green that would read as good
+        self._closing = Closing(self._document, lambda: None, self._close)
         self.form.destroyed.connect(self._let_go)
         self._show()
 
@@ -137,7 +138,7 @@ class DeviationPanel:
         if self._callback is None:
             return
         callback, self._callback = self._callback, None
-        self._with_document.release()
+        self._closing.release()
         if self._document in FreeCAD.listDocuments():  # a view that was closed crashes when it is asked
             self._view.removeEventCallback("SoLocation2Event", callback)
         self._overlay.remove()

@@ -14,8 +14,8 @@ from .. import running
 from ..qt import QtCore, QtWidgets, number_of
 from ..translating import said, tr
 from ..view3d.overlay import Overlay, points_node
-from ..widgets import ProgressBar, named, wrapped
-from .closing import WithDocument
+from ..widgets import Form, ProgressBar, named, wrapped
+from .closing import Closing
 
 _PAIRS = 3
 _COLOURS = (0xE6194BFF, 0x2F7FC8FF, 0xF0A500FF)
@@ -41,7 +41,7 @@ class PointPairsPanel:
         self._picked: dict[str, list[Point]] = {"scan": [], "part": []}
         self._order: list[str] = []
         self._worker: running.Worker | None = None
-        self.form = QtWidgets.QWidget()
+        self.form = Form()
         self.form.setWindowTitle(tr("Align by three points"))
         self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), wrapped("FfdsMessageLabel")
         self._message.setStyleSheet("color: #b3401f")
@@ -59,7 +59,7 @@ class PointPairsPanel:
         Gui.Selection.clearSelection()
         Gui.Selection.addObserver(self)
         self._watching = True
-        self._with_document = WithDocument(scan.Document.Name, self._stop, self._close)
+        self._closing = Closing(scan.Document.Name, self._stop, self._close)
         self._show()
 
     def addSelection(self, document: str, name: str, element: str, place: Point) -> None:
@@ -172,7 +172,7 @@ class PointPairsPanel:
         self._watching = False
         try:
             Gui.Selection.removeObserver(self)
-            self._with_document.release()
+            self._closing.release()
             self._stop()
         finally:
             self._overlay.remove()

@@ -14,6 +14,8 @@ from .patches import Patch, Preview
 
 _REST_MS = 350
 """The preview becomes exact when nothing was touched for so long."""
+_PATIENCE_MS = 700
+"""What takes longer than this is said."""
 
 
 class PreviewRunner(QtCore.QObject):
@@ -39,6 +41,9 @@ class PreviewRunner(QtCore.QObject):
         self._rest = QtCore.QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.timeout.connect(self._refine)
+        self._patience = QtCore.QTimer(self)
+        self._patience.setSingleShot(True)
+        self._patience.timeout.connect(lambda: self._told(tr("Refining the preview")))
 
     def preview_of(self, job: Job) -> Preview:
         """The preview of a job's part and scan, kept as long as they stay the same."""
@@ -100,26 +105,28 @@ class PreviewRunner(QtCore.QObject):
         if job is None:
             return
         preview = self.preview_of(job)
-        if job.request.faces is None:
-            self._told(tr("Refining the preview"))
+        self._patience.start(0 if job.request.faces is None else _PATIENCE_MS)
         self._exact = running.Worker(lambda progress: preview.patches(job.request, False, progress),
                                      lambda patches: self._refined(job, patches), self._not_refined, _silent)
 
     def _refined(self, job: Job, patches: list[Patch]) -> None:
-        self._exact = None
-        self._told("")
+        self._end_exact()
         self._drawn(job, patches)
 
     def _not_refined(self, failure: BaseException) -> None:
-        self._exact = None
-        self._told("")
+        self._end_exact()
         self._failed(failure)
+
+    def _end_exact(self) -> None:
+        self._exact = None
+        self._patience.stop()
+        self._told("")
 
     def _drop_exact(self) -> None:
         self._rest.stop()
         if self._exact is not None:
             self._exact.cancel()
-            self._exact = None
+            self._end_exact()
 
 
 def _silent(text: str) -> None:

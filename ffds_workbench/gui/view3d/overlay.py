@@ -25,6 +25,7 @@ class Overlay:
         # A view that was closed crashes when it is asked for its graph; the graph itself lives on while it is held.
         self._graph = Gui.getDocument(document_name).ActiveView.getSceneGraph()
         self._covered: list[tuple[Any, Any, Any]] = []
+        self._picked_through: list[tuple[Any, Any]] = []
         self._root = coin.SoSeparator()
         self._root.addChild(_unpickable())
         self._frame = coin.SoMatrixTransform()
@@ -44,7 +45,7 @@ class Overlay:
     def cover(self, *items: Any) -> None:
         """Leave these document objects, and no others, undrawn: they would hide the overlay. No property changes.
 
-        Parts can still be picked; scans cannot, they would catch what is meant for the parts.
+        They can still be picked.
         """
         wanted = list(dict.fromkeys(items))
         if [item for item, _, _ in self._covered] == wanted:
@@ -56,11 +57,16 @@ class Overlay:
             style.setOverride(True)
             group = coin.SoGroup()
             group.addChild(style)
-            if item.isDerivedFrom("Points::Feature"):
-                group.addChild(_unpickable())
             root = item.ViewObject.RootNode
             root.insertChild(group, 0)
             self._covered.append((item, root, group))
+
+    def pick_through(self, items: Sequence[Any]) -> None:
+        """Let clicks through these document objects to what lies behind them: scans lie on the faces that are meant."""
+        for item in items:
+            root, style = item.ViewObject.RootNode, _unpickable()
+            root.insertChild(style, 0)
+            self._picked_through.append((root, style))
 
     def _uncover(self) -> None:
         while self._covered:
@@ -70,6 +76,8 @@ class Overlay:
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
         self._uncover()
+        for root, style in self._picked_through:
+            root.removeChild(style)
         if self._graph.findChild(self._root) >= 0:
             self._graph.removeChild(self._root)
 

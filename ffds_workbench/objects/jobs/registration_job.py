@@ -47,7 +47,7 @@ class Job:
         """
         if self.digest not in _results:
             result = api.run(self.request, self.source.model, self.scan, progress)
-            _ = result.report  # measured and waited for here, and not where the main thread asks for it
+            _ = result.first_report  # measured here, and not where the main thread asks for it
             _results[self.digest] = result
             while len(_results) > _KEPT:
                 _results.popitem(last=False)

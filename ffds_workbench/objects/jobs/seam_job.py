@@ -82,7 +82,8 @@ def make_seam_job(as_built: Any, nominal: Any, wishes: SeamWishes) -> SeamJob:
     """
     as_built = standing_for(as_built)
     report = report_of(as_built) if is_as_built(as_built) else {}
+    bands = {name: report[name] for name in ("faces", "edges") if name in report}
     if nominal is as_built:
         raise InputError(f"{as_built.Label} cannot be compared with itself: choose the nominal part, or none.")
     before = None if nominal is None else model_file.from_object(standing_for(nominal))
-    return SeamJob(model_file.from_object(as_built), before, report or None, wishes)
+    return SeamJob(model_file.from_object(as_built), before, bands or None, wishes)

@@ -91,12 +91,10 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
-    factors = np.array([1.0, weight, weight * trust.sliding, trust.shear, trust.dihedral])
-    blocks = factors @ problem.constant.reshape(len(factors), -1)
-    blocks = blas.daxpy(across.blocks.ravel(), blocks, a=trust.thickness - trust.shear)
+    blocks = problem.constant.weighted(weight, trust.sliding, trust.shear, trust.dihedral)
+    blocks = blas.daxpy(across.blocks.ravel(), blocks.ravel(), a=trust.thickness - trust.shear).reshape(-1, 3, 3)
     skin, wall = problem.isometry_weights(trust)
-    for rows, isometry in zip(strained, (skin, wall), strict=True):
-        blocks = blas.daxpy(rows.ravel(), blocks, a=isometry)
+    blocks += np.where(problem.skin_blocks, skin, wall)[:, None, None] * strained
     bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
     right = (weight * gather(problem, load)
@@ -107,24 +105,22 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     stress = (np.where(problem.skin, skin, wall)[:, None] * stiffness.weight)[..., None] * strain
     right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
                                                    stress))
-    return NormalEquations(blocks.reshape(-1, 3, 3), right)
+    return NormalEquations(blocks, right)
 
 
 def strain_blocks(problem: Problem, control_points: Array) -> Array:
-    """Normal matrices of the strain at the current shape, of the skins of sheets and of all other faces, without their
-    weights: (2, size, 3, 3)."""
+    """Normal matrix of the strain at the current shape, without its weights: (size, 3, 3)."""
     stiffness = problem.stiffness
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
     flat = rows.reshape(len(rows), -1, 48)
     weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
     blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
-    result = np.empty((2, problem.pattern.size, 3, 3))
-    for number, spans in enumerate((np.flatnonzero(problem.skin), np.flatnonzero(~problem.skin))):
-        own = blocks[spans]
-        for a in range(3):
-            for b in range(3):
-                result[number, :, a, b] = problem.pattern.from_spans(own[:, a, :, b], spans)
+    result = np.empty((problem.pattern.size, 3, 3))
+    for a, b in COMPONENTS:
+        result[:, a, b] = problem.pattern.from_spans(blocks[:, a, :, b])
+        if a != b:
+            result[:, b, a] = problem.pattern.from_spans(blocks[:, b, :, a])
     return result
 
 

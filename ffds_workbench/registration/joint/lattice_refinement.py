@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Finer lattices where the data ask for them: where what is left in the cells is more than the noise explains."""
+"""Finer lattices where the data ask for them: where the residuals of the cells are larger than the noise explains."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -9,49 +9,40 @@ from scipy.linalg import lstsq
 
 from ..arrays import Array
 from ..splines import greville
+from .data import patch_sums
 from .problem import Problem
 from .state import State, fresh_cache
 from .surfaces import FaceLattice, cubic
 
-_EXCESS_VARIANCE = 1.5
-"""Ratio of the variance of patch means to that of noise alone, from which the spans of a face are divided."""
+_MODEL_SHARE = 1 / 3
+"""Share of the model's error in the variance of a patch's mean from which the spans of a face are divided
+(calibrated: families of seeds from 1001 on)."""
 _LEAST_PATCHES = 8
-_PATCHES_PER_SPAN = 2
-"""Patches along a span: noise averages out over one, a shape that the lattice cannot follow does not."""
 _FULL_PATCH = 0.3
+"""Of the usual weight, what a patch has to have to be judged."""
 _LARGEST_LATTICE = 6000
 _SENSOR_NOISE_SHARE = 0.5
+"""Share of the faces: where more of them ask, the sensor's noise is smooth rather than the shape rough, unless points
+share more of an error than they have noise of their own (unit)."""
 
 
 def faces_to_refine(problem: Problem, state: State) -> dict[int, int]:
     """Faces whose spans are to be halved, {face: 2}; empty where the lattice follows the scan down to its noise."""
     if problem.lattices.count > _LARGEST_LATTICE:
         return {}
-    ratio, face = patch_ratios(problem, state)
-    judged = [index for index in range(len(problem.part.faces)) if (face == index).sum() >= _LEAST_PATCHES]
-    chosen = [index for index in judged
-              if ratio[face == index].mean() > _EXCESS_VARIANCE + 2 * np.sqrt(2 / (face == index).sum())]
-    # Where all faces ask, it is the sensor's noise that is smooth, not the shape that is rough.
-    return {} if len(chosen) > _SENSOR_NOISE_SHARE * len(judged) else dict.fromkeys(chosen, 2)
-
-
-def patch_ratios(problem: Problem, state: State) -> tuple[Array, Array]:
-    """Squared means of what is left in patches of cells over their variance from noise, and the faces: (n,) each."""
-    per_span = int(np.sqrt(problem.cells.inside.shape[1]))
-    size = max(1, per_span // _PATCHES_PER_SPAN)
-    count = per_span // size
-    spans = len(problem.lattices.controls)
-
-    def summed(cells: Array) -> Array:
-        grid = cells.reshape(spans, per_span, per_span)[:, : count * size, : count * size]
-        return grid.reshape(spans, count, size, count, size).sum(axis=(2, 4))
-
-    pull, weight = summed(state.values.height * state.values.weight), summed(state.values.weight)
-    if not weight.any():
-        return np.zeros(0), np.zeros(0)
-    full = weight > _FULL_PATCH * np.median(weight[weight > 0])
-    face = np.broadcast_to(problem.lattices.face_of_span[:, None, None], full.shape)
-    return pull[full] ** 2 / weight[full], face[full]
+    scatter, faces = state.values.scatter, len(problem.part.faces)
+    precision = patch_sums(state.values.weight.reshape(problem.distance.shape))
+    if not precision.any():
+        return {}
+    full = precision > _FULL_PATCH * np.median(precision[precision > 0])
+    face = np.broadcast_to(problem.lattices.face_of_span[:, None, None], full.shape)[full]
+    count = np.bincount(face, minlength=faces)
+    usual = np.bincount(face, precision[full], faces) / np.maximum(count, 1)
+    judged = count >= _LEAST_PATCHES
+    asks = judged & (usual * scatter.model**2 > _MODEL_SHARE) & (scatter.model > problem.lengths.model)
+    if asks.sum() > _SENSOR_NOISE_SHARE * judged.sum():
+        asks &= scatter.model > scatter.sensor
+    return dict.fromkeys(np.flatnonzero(asks).tolist(), 2)
 
 
 def transfer(coarse: Problem, fine: Problem, state: State) -> State:
@@ -72,7 +63,7 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:
-    """As many places within the bounds: Greville abscissae of an unclamped lattice lie outside them."""
+    """Interpolation sites within the bounds: some Greville abscissae of an unclamped lattice lie outside."""
     return np.unique(np.clip(np.concatenate([places, np.linspace(*bounds, len(places))]), *bounds))
 
 

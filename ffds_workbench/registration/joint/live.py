@@ -16,7 +16,8 @@ from .solve import gauss_newton_step
 from .state import State, start
 from .surfaces import JointPart
 
-_LEAST_SPAN = 30.0
+_COARSER = 0.4
+"""Spans of a preview beside those of the result."""
 _SAMPLE_SIZE = 6000
 
 
@@ -59,7 +60,7 @@ class LiveJoint:
 
 
 def _coarse(settings: JointSettings) -> JointSettings:
-    return replace(settings, span=max(_LEAST_SPAN, settings.span), refine=False)
+    return replace(settings, spans=_COARSER * settings.spans, refine=False)
 
 
 def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:

@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from ..motions import apply, best_fit
+from .data import Correspondence, correspond, make_frames
 from .joint_result import JointRegistration, SolidMotion
 from .prior_trust import is_isometric, observed_strain
 from .problem import Problem
@@ -21,6 +22,11 @@ _NOT_CONVERGED = 0.5
 _LEAST_USED_POINTS = 50
 _LEAST_USED_SHARE = 0.02
 _COLLAPSED_AREA = 0.1
+_OFF_IN_NOISES, _OFF_SHARE, _NEGLIGIBLE = 10.0, 0.2, 1e-5
+"""A face does not follow the scan that lies this many times the noise off its points, this share of what the nominal
+part did, and farther than as many times this share of the part's size, which is less than anybody can see."""
+_LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
+"""Points and cover of a face that is judged: what else lies near it does not cover it."""
 
 
 def refuse_unsound(problem: Problem, state: State) -> None:
@@ -44,6 +50,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
     if state.last_step > _NOT_CONVERGED:
         raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
                            "does not hold the part; align it first, or freeze faces.")
+    _refuse_off_scan(problem, state)
     normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
     expected = _rotated_normals(problem, jet.position, nominal_normal)
@@ -52,6 +59,30 @@ def refuse_unsound(problem: Problem, state: State) -> None:
     if folded.any():
         face = problem.part.faces[problem.lattices.face_of_span[np.flatnonzero(folded.any(axis=1))[0]]].name
         raise RefusedError(f"{face} would fold over: the scan does not determine it; freeze it or scan it better.")
+
+
+def _refuse_off_scan(problem: Problem, state: State) -> None:
+    """Raise RefusedError where a face is covered by scan points and lies far off them: they were not followed."""
+    noise = problem.statistics.noise
+    before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), state.reach).height))
+    found = _all_matched(problem, state.control_points, state.reach)
+    face = problem.face_of_cell[found.cell]
+    expected = np.bincount(problem.face_of_cell, problem.area.ravel()) * problem.statistics.density
+    enough = np.maximum(_LEAST_JUDGED_COVER * expected * len(problem.sample) / len(problem.scan), _LEAST_JUDGED_POINTS)
+    judged = np.flatnonzero(np.bincount(face, minlength=len(enough)) >= enough)
+    after = np.array([np.median(np.abs(found.height[face == index])) for index in judged])
+    worst = int(np.argmax(after)) if len(after) else 0
+    if len(after) and after[worst] > max(_OFF_IN_NOISES * max(noise, _NEGLIGIBLE * problem.size), _OFF_SHARE * before):
+        name = problem.part.faces[judged[worst]].name
+        raise RefusedError(f"The registration leaves {name} {after[worst]:.2g} mm off its scan points, whose noise is "
+                           f"{noise:.2g} mm: align the scan better, or register the face by itself (--face {name}).")
+
+
+def _all_matched(problem: Problem, control_points: Array, reach: float) -> Correspondence:
+    """All points of the sample within ``reach`` mm of a shape, before any is weighed."""
+    jet = problem.cells.displaced(problem.lattices, control_points)
+    return correspond(problem.sample, make_frames(problem.lattices, problem.cells, jet, problem.margin,
+                                                  problem.distance), reach)
 
 
 def _rotated_normals(problem: Problem, position: Array, normal: Array) -> Array:

@@ -8,16 +8,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import bsr_matrix, csr_matrix
-from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
+from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .linear import Pattern
-from .priors import (COMPONENTS, GAUSS_PLACES, SLIDING, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs,
-                     make_couplings, make_stiffness)
+from .lengths import Lengths, find_lengths
+from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
+                     make_stiffness)
 from .settings import JointSettings
-from .surfaces import JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals
+from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals,
+                       span_counts)
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
@@ -26,7 +28,8 @@ _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
 _SAME_NORMAL = 0.02
-"""Change of a normal up to which it does for the thickness, of which it changes one in five thousand."""
+"""The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
+thousand."""
 _WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
@@ -51,9 +54,10 @@ class Problem:
     lattices, cells, stiffness, couplings, pattern : see their modules
     distance : (spans, k) of the cells from the border of their face in mm, negative outside
     area : (spans, k) of the cells in mm²
-    constant : (5, size, 3, 3) rows on the pattern: those that have no weight but their own, and those of bending across
-        the surfaces and within them, of the distance of opposite skins in all directions, of sharp edges
+    constant : rows that are the same at every shape
     sides : where the faces lie at their edges
+    lengths : of the solve
+    distance_to_nominal : (n,) of the points of the sample, in mm; infinite beyond the size of the part
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
 
@@ -69,28 +73,25 @@ class Problem:
     stiffness: Stiffness
     couplings: Couplings
     pattern: Pattern
-    constant: Array
+    constant: ConstantRows
     sides: EdgeSides
     margin: Array
+    lengths: Lengths
+    distance_to_nominal: Array
     sample_normals: Array | None = None
 
     def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
-        """Rows of the thickness along the normals that the sheets have with these control points, or hardly differ."""
+        """Rows of the thickness along the sheets' current normals; those that are ``known`` if the normals hardly
+        differ."""
         normal = self.couplings.sheet_normals(control_points)
         if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
             return known
         return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
-    @cached_property
+    @property
     def size(self) -> float:
         """Diagonal of the box around the nominal cells, in mm."""
-        return float(np.linalg.norm(np.ptp(self.cells.nominal.position[self.cells.inside], axis=0)))
-
-    @cached_property
-    def distance_to_nominal(self) -> Array:
-        """How far the points of the sample lie from the nominal part, in mm; infinite beyond its size: (n,)."""
-        tree = cKDTree(self.cells.nominal.position[self.cells.inside])
-        return np.asarray(tree.query(self.sample, distance_upper_bound=self.size, workers=-1)[0])
+        return self.lengths.size
 
     @property
     def face_of_cell(self) -> Index:
@@ -106,6 +107,11 @@ class Problem:
     def skin(self) -> NDArray[np.bool_]:
         """Whether a span belongs to the skin of a sheet."""
         return self.sheet_of_span > 0
+
+    @cached_property
+    def skin_blocks(self) -> NDArray[np.bool_]:
+        """Whether a block of the pattern belongs to the skin of a sheet: (size,)."""
+        return (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
@@ -128,40 +134,32 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
     sample = scan[pick]
     statistics = scan_statistics(scan)
-    span = max(settings.span, np.sqrt(_POINTS_PER_SPAN / statistics.density))
-    lattices = build_lattices(part.faces, span, settings.turning, finer)
-    per_span = int(np.clip(span / np.sqrt(_POINTS_PER_CELL / statistics.density), *_CELLS_PER_SPAN))
-    cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
+    least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
+    lattices = build_lattices(part.faces, span_counts(part.faces, part.solids, settings.spans, settings.turning, least,
+                                                      finer))
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
+    per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
+    cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    lengths, apart = find_lengths(cells, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
-                               len(scan) / statistics.noise**2)
+                               len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
-    constant = np.stack([_same_for_all(pattern.from_scalar(couplings.scalar)) + pattern.from_vector(couplings.smooth),
-                         *_bending(pattern, stiffness), _same_for_all(pattern.from_scalar(couplings.shear)),
-                         pattern.from_vector(couplings.dihedral)])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
-                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern, constant,
+                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
+                   constant_rows(pattern, stiffness, couplings),
                    edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)),
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths, apart,
                    None if scan_normals is None else scan_normals[pick])
 
 
-def _same_for_all(values: Array) -> Array:
-    """Values (size,) for each of x, y and z: (size, 3, 3)."""
-    return values[:, None, None] * np.eye(3)
-
-
-def _bending(pattern: Pattern, stiffness: Stiffness) -> tuple[Array, Array]:
-    """Rows of bending across the surfaces and within them on the pattern: (size, 3, 3) each."""
-    every, along = stiffness.bending_blocks()
-    across = np.empty((pattern.size, 3, 3))
-    for number, (a, b) in enumerate(COMPONENTS):
-        across[:, a, b] = across[:, b, a] = pattern.from_spans(along[:, number])
-    return across, SLIDING * (_same_for_all(pattern.from_spans(every)) - across)
+def _cells_per_span(area: Array, statistics: ScanStatistics) -> int:
+    """Cells along a span of the size, by area (spans,) in mm², in which most of the surface lies."""
+    points = statistics.density * np.average(area, weights=area)
+    return int(np.clip(np.sqrt(points / _POINTS_PER_CELL), *_CELLS_PER_SPAN))
 
 
 def _positions(lattices: Lattices, cells: SpanGrid) -> Array:

@@ -78,8 +78,8 @@ class JointSettings:
 
     Attributes
     ----------
-    span : size of a lattice span in mm where the scan is dense
-    turning : largest turn of the normal over a span, in rad
+    spans : of a lattice over the size of a solid, where the scan is dense; a bracket of 100 mm gets 12 mm
+    turning : largest turn of the normal over a span in rad, of faces as round as their solid is large
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
     curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; bending weighs 1/(κ₀ l)²
     isometry_weight, isometry_weight_walls : weight of the strain per mm², on walls at most the second
@@ -93,7 +93,7 @@ class JointSettings:
     seed : of the random sample of scan points
     """
 
-    span: float = 12.0
+    spans: float = 11.0
     turning: float = float(np.deg2rad(25))
     isometry: Literal["auto", "on", "off"] = "auto"
     curvature: float = 0.002

@@ -16,8 +16,8 @@ from ...errors import RefusedError
 from ..arrays import Array
 from .assembly import add_borders, add_data, shape_equations, strain_blocks
 from .body_field import add_body_rows, body_informs, body_rows
-from .data import (Correspondence, correspond, find_borders, find_near_edges, make_frames, median_heights,
-                   tukey_mean_heights)
+from .data import (CellHeights, Correspondence, Scatter, correspond, find_borders, find_near_edges, make_frames,
+                   median_heights, tukey_mean_heights)
 from .joint_result import JointRegistration
 from .lattice_refinement import faces_to_refine, transfer
 from .linear import solve_normal_equations
@@ -32,17 +32,17 @@ from .uncertainty import misfit
 
 Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
-"""Where the shape lies off all of the scan, a stage goes on while the trust in isometry falls by more than this factor:
-shapes follow it slowly."""
+"""While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
+times the last one: shapes follow it slowly."""
 _NO_MORE_STIFF_STAGES = 0.05
-"""A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
+"""If a stiff stage ends with a step smaller than this in mm, the remaining stiff stages are skipped."""
 _MATCHES_LAST = 0.1
-"""Movement in mm after which points keep their cells: a small share of a cell."""
+"""After a step smaller than this in mm, points keep their cells: it is a small share of a cell."""
 _STRAIN_LASTS = 0.5
-"""Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
-so far that the steps would go astray."""
+"""The strain matrices are kept until the shape has moved by this in mm: by a small share of a span no face turns so far
+that the steps would go astray."""
 _FACTOR_LASTS = 0.03
-"""A matrix with this share of the bending is too far from one with all of it to be solved with that one's factor."""
+"""A factor is not used for a matrix with less than this share of its bending weight."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -91,7 +91,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 
 
 def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
-    """The stiff stages, of which some can be left out; fits that are ``compared`` all end with the last one."""
+    """The stiff stages, some of which may be skipped; fits that are ``compared`` all end with the last one."""
     stiff = [stage for stage in steps if not stage.soft]
     for stage in stiff:
         if state.last_step > _NO_MORE_STIFF_STAGES or (compared and stage is stiff[-1]):
@@ -100,7 +100,7 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
 
 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage; a sheet that complies without any stretch has not stretched."""
+    """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state)
         if is_isometric(unstretched):
@@ -109,7 +109,7 @@ def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 
 def run_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
+    """Gauss-Newton steps of one stage, until they are smaller than what the stage can resolve."""
     if stage.body and not body_informs(problem, state.trust):
         return state
     cache = state.cache
@@ -129,15 +129,14 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 def _misfits_scan(problem: Problem, state: State) -> bool:
     """Whether the shape lies somewhere farther off the scan than its noise."""
-    return bool(misfit(problem, state.values).max() > problem.statistics.noise**2)
+    return bool(misfit(problem, state.values).max() > problem.lengths.start**2)
 
 
 def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     """One step: match the scan to the current shape, weigh every cell, solve, move the control points."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     found = _match_scan(problem, stage, state, jet)
-    cell_values = tukey_mean_heights if stage.all_points else median_heights
-    values = cell_values(found, problem.distance.size, state.noise, problem.face_of_cell)
+    values = _weigh(problem, stage, found, state.values.scatter)
     cache = _renewed_cache(problem, stage, replace(state, values=values), jet)
     equations = shape_equations(problem, state.control_points, stage.bending, state.trust, cache.strain_matrices,
                                 cache.thickness_rows)
@@ -152,7 +151,7 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
                     factor_bending=stage.bending if factor is not near else cache.factor_bending)
-    return replace(state, control_points=state.control_points + step, values=values, noise=values.noise,
+    return replace(state, control_points=state.control_points + step, values=values,
                    last_step=last_step, iterations=state.iterations + 1, cache=cache)
 
 
@@ -168,6 +167,15 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     return found
 
 
+def _weigh(problem: Problem, stage: Stage, found: Correspondence, scatter: Scatter) -> CellHeights:
+    """A height and a weight for every cell."""
+    face_of_span, per_span = problem.lattices.face_of_span, problem.distance.shape[1]
+    if not stage.all_points:
+        return median_heights(found, scatter, face_of_span, per_span)
+    return tukey_mean_heights(found, scatter, face_of_span, per_span,
+                              (problem.lengths.resolution, problem.lengths.model))
+
+
 def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> StepCache:
     """The cache, renewed where the shape has moved too far since."""
     cache, control_points = state.cache, state.control_points
@@ -176,7 +184,8 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
     if stage.soft:
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
-        borders = find_borders(near_edges, edges, sides, control_points, problem.statistics.noise, cache.borders)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
+                               problem.lengths.start, cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
             cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))

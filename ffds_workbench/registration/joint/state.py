@@ -5,22 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from ...errors import RefusedError
 from ..arrays import Array, Index
 from .assembly import strain_blocks
 from .body_field import BodyRows
-from .data import Borders, CellHeights, NearEdges, no_heights
+from .data import Borders, CellHeights, NearEdges, Scatter, no_heights
 from .linear import FrontCholesky
 from .priors import PriorTrust
 from .problem import Problem, ThicknessRows
-
-_TYPICAL_QUANTILE, _SEEN_QUANTILE = 0.75, 0.4
-"""Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
-the scan shows the part, or, where a table fills it, some of the part is seen."""
-_REACH_FACTOR = 1.5
-_LEAST_REACH = 3.0
 
 
 @dataclass(frozen=True)
@@ -56,7 +48,6 @@ class State:
     Attributes
     ----------
     control_points : (controls, 3) displacement in mm
-    noise : (faces,) in mm
     reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
     cache : what the next one uses again
@@ -68,7 +59,6 @@ class State:
     """
 
     control_points: Array
-    noise: Array
     reach: float
     values: CellHeights
     cache: StepCache
@@ -80,27 +70,13 @@ class State:
 
 
 def fresh_cache(problem: Problem, control_points: Array) -> StepCache:
-    """What a first step on a shape uses."""
+    """The cache for a first step on a shape."""
     return StepCache(strain_blocks(problem, control_points), problem.thickness_rows(control_points))
 
 
 def start(problem: Problem) -> State:
-    """The nominal shape.
-
-    Raises
-    ------
-    RefusedError : the scan is farther from the part than the part is large
-    """
-    distance = np.sort(problem.distance_to_nominal)
-    typical = float(distance[int(_TYPICAL_QUANTILE * (len(distance) - 1))])
-    if not np.isfinite(typical):
-        raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
-                           "check the unit of the scan and align it first.")
-    if typical > _LEAST_REACH / _REACH_FACTOR:
-        back = cKDTree(problem.sample).query(problem.cells.nominal.position[problem.cells.inside], workers=-1)[0]
-        typical = min(typical, float(np.quantile(back, _SEEN_QUANTILE)))
-    faces = len(problem.part.faces)
-    noise = np.full(faces, problem.statistics.noise)
+    """The nominal shape."""
+    faces, lengths = len(problem.part.faces), problem.lengths
     still = np.zeros((problem.lattices.count, 3))
-    return State(still, noise, max(_LEAST_REACH, _REACH_FACTOR * typical, 4 * problem.statistics.noise),
-                 no_heights(problem.distance.size, noise), fresh_cache(problem, still))
+    scatter = Scatter(np.full(faces, lengths.noise), np.zeros(faces), np.full(faces, lengths.start))
+    return State(still, lengths.reach, no_heights(problem.distance.size, scatter), fresh_cache(problem, still))

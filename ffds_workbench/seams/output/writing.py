@@ -6,9 +6,10 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...errors import InputError
+from ...errors import InputError, RefusedError
 from ...output import check_writable, replacing
 from ..clearance import blocked_ways
+from ..measured import MeasuredSeam
 from ..plan import SeamPlan
 from ..programs.krl import krl_texts
 from ..programs.moves import RobotSettings, SeamMoves, moves, program_name
@@ -17,7 +18,8 @@ from ..programs.urscript import urscript_text
 from .picture import draw
 from .table import csv_text
 
-FORMATS = (".csv", ".src", ".mod", ".script", ".fcstd")
+PROGRAMS = (".src", ".mod", ".script", ".fcstd")
+FORMATS = (".csv", *PROGRAMS)
 _KRL_NAME_LIMIT = 24
 
 
@@ -43,6 +45,9 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
                 inputs: Sequence[str | Path] = ()) -> list[str]:
     """Write tables and programs, by their suffixes, and the report and its picture: all of them or none.
 
+    Programs hold the seams within their limits, and the others where the robot's settings ask for them; tables, the
+    report and the picture hold all seams.
+
     Returns
     -------
     notes : sentences on what the user must know of the programs
@@ -50,14 +55,17 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     Raises
     ------
     InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
-    RefusedError : the disk is full
+    RefusedError : a program would hold no seam, or the disk is full
     """
     outs, inputs = list(map(Path, outs)), list(map(Path, inputs))
     report_path, picture = (None if path is None else Path(path) for path in (report_path, picture))
     check_seam_outputs(outs, (report_path, picture), inputs)
     extra = [path for path in (report_path, picture) if path is not None]
     robot = robot or RobotSettings()
-    paths = [moves(seam, robot) for seam in plan.seams]
+    paths = [moves(seam, robot) for seam in programmed_seams(plan, robot)]
+    if not paths and any(out.suffix.lower() in PROGRAMS for out in outs):
+        raise RefusedError("No seam is within its limits, so no program was written: look at the report, set other "
+                           "limits, or keep failing seams (--keep-failing).")
     targets = [target for out in outs for target in _targets(out)] + extra
     with replacing(*targets) as temporary:
         names = dict(zip(targets, temporary, strict=True))
@@ -70,7 +78,24 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
             draw(names[picture], plan)
     renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
                if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
-    return blocked_ways(plan.shape, paths) + renamed
+    return program_notes(plan, robot) + renamed
+
+
+def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]:
+    """The seams that come into programs."""
+    return [seam for seam in plan.seams if robot.keep_failing or not seam.exceeded(plan.limits)]
+
+
+def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
+    """What the user must know of the programs of a plan, as sentences; known before they are written."""
+    failing = [f"{seam.name} ({', '.join(exceeded)})" for seam in plan.seams
+               if (exceeded := seam.exceeded(plan.limits))]
+    notes = []
+    if failing and robot.keep_failing:
+        notes.append(f"Beyond their limits, and in the programs all the same: {', '.join(failing)}.")
+    elif failing:
+        notes.append(f"Beyond their limits, and therefore in no program: {', '.join(failing)}.")
+    return notes + blocked_ways(plan.shape, [moves(seam, robot) for seam in programmed_seams(plan, robot)])
 
 
 def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequence[SeamMoves],

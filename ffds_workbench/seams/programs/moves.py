@@ -30,12 +30,14 @@ class RobotSettings:
     tool, base : see `FrameChoice`; ``base`` is where the model's frame stands for the robot
     velocity : along the seam in mm/s
     approach : distance in mm from which the torch comes down to the seam's start, and to which it leaves the end
+    keep_failing : seams beyond their limits are in the programs as well
     """
 
     tool: FrameChoice = None
     base: FrameChoice = None
     velocity: float = 10.0
     approach: float = 50.0
+    keep_failing: bool = False
 
     def __post_init__(self) -> None:
         if not 0.01 <= self.velocity <= 2000.0:

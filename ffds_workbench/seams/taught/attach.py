@@ -19,7 +19,7 @@ from ..chains import Stretch
 from ..find import NAMED_TOLERANCE
 from ..frames import torch_frames
 from ..joints import find_joints
-from ..offsets import paired_fractions
+from ..pairing import PairedFace, paired_face, paired_fractions
 from ..stations import beside
 from ..weldment import Weldment, towards_middle
 
@@ -27,7 +27,6 @@ EDGE_REACH = 1.0
 """A pose nearer than this (mm) to an edge is held by it, as a seam is."""
 _REACH_SHARE = 0.5
 """Poses farther away than this share of the model's diagonal are held by nothing."""
-_SAME_PARAMETERS = 1e-3
 
 
 @dataclass(frozen=True)
@@ -85,9 +84,12 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
         rows = np.array([i for i, anchor in enumerate(anchors) if anchor and anchor.edge == edge])
         fractions = np.array([anchors[i].at[0] for i in rows])
         origin[rows], target[rows], rotation[rows] = _edge_motion(nominal, as_built, edge, fractions)
+    paired = {face: paired_face(nominal, as_built, face) for face in
+              {anchor.face for anchor in anchors if anchor and anchor.face is not None}}
     for row, anchor in enumerate(anchors):
         if anchor and anchor.face is not None:
-            origin[row], target[row], rotation[row] = _face_motion(nominal, as_built, anchor.face, anchor.at)
+            origin[row], target[row], rotation[row] = _face_motion(nominal, as_built, anchor.face,
+                                                                   paired[anchor.face], anchor.at)
     return Motion(held, origin, target, rotation)
 
 
@@ -144,13 +146,11 @@ def _edge_motion(nominal: Weldment, as_built: Weldment, edge: int, fractions: Ar
     return before.positions, after.positions, turned[1] @ np.swapaxes(turned[0], 1, 2)
 
 
-def _face_motion(nominal: Weldment, as_built: Weldment, face: int,
+def _face_motion(nominal: Weldment, as_built: Weldment, face: int, paired: PairedFace,
                  uv: tuple[float, float]) -> tuple[Array, Array, Array]:
-    ranges = [np.array(model.faces[face].ParameterRange) for model in (nominal, as_built)]
-    if np.abs(ranges[0] - ranges[1]).max() > _SAME_PARAMETERS * np.abs(np.diff(ranges[0])[[0, 2]]).max():
-        raise RefusedError(f"Face{face + 1} has other parameters in the as-built model: use the model that "
-                           "register wrote.")
-    places = [_tangent_plane(model.faces[face], *uv) for model in (nominal, as_built)]
+    places = [_tangent_plane(nominal.faces[face], *uv), _tangent_plane(as_built.faces[face], *paired.uv(*uv))]
+    places[1][1][:, :2] = places[1][1][:, :2] @ paired.turn
+    places[1][1][:, 2] *= np.linalg.det(paired.turn)
     # The rotation nearest to the map of the tangent planes, by polar decomposition.
     left, _, right = np.linalg.svd(places[1][1] @ np.linalg.inv(places[0][1]))
     turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right

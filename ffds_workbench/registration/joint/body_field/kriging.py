@@ -23,12 +23,15 @@ _TRIED_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 _LEAST_VARIANCE = 1e-12
 """Variance in mm² of a part that has not moved at all."""
 _LIKELIHOOD_SAMPLE = 400
-"""Observations that the likelihood is computed from."""
+"""Number of observations that the likelihood is computed from."""
+
+_LOT = 512
+"""Places that are looked at together."""
 
 
 @dataclass(frozen=True)
 class Observations:
-    """What is known of the field: direction · f(place) = value, give or take √variance.
+    """What is known of the field: direction · f(place) = value, with a standard deviation of √variance.
 
     Attributes
     ----------
@@ -109,19 +112,28 @@ class Field:
 
     def mean(self, place: Array, body: Index) -> Array:
         """Mean (n, 3) in mm at places (n, 3) on bodies (n,) (2.25)."""
-        return (self.weight @ self._cross(place, body)).reshape(-1, 3)
+        return np.concatenate([(self.weight @ self._cross(*some)).reshape(-1, 3) for some in _lots(place, body)])
 
     def covariance(self, place: Array, body: Index) -> Array:
         """Covariance (n, 3, 3) in mm² of the field there, without noise (2.26)."""
-        cross = self._cross(place, body)
-        known = solve_triangular(self.factor, cross, lower=True, check_finite=False).reshape(len(cross), -1, 3)
-        return self.model.variance * (np.eye(3) - np.matmul(known.transpose(1, 2, 0), known.transpose(1, 0, 2)))
+        known = []
+        for some in _lots(place, body):
+            rows = solve_triangular(self.factor, self._cross(*some), lower=True, check_finite=False)
+            rows = rows.reshape(len(rows), -1, 3)
+            known.append(np.matmul(rows.transpose(1, 2, 0), rows.transpose(1, 0, 2)))
+        return self.model.variance * (np.eye(3) - np.concatenate(known))
 
     def _cross(self, place: Array, body: Index) -> Array:
         """Between what is known and all components there: (observations + 6, 3 n)."""
         across = self.model.correlation(self.seen.place, self.seen.body, place, body)
         seen = (across[:, :, None] * self.seen.direction[:, None]).reshape(len(across), -1)
         return np.concatenate([seen, _with_pose(self.model, self.pose, place, body).reshape(6, -1)])
+
+
+def _lots(place: Array, body: Index) -> list[tuple[Array, Index]]:
+    """Places in lots that need little memory: at least one, (n, 3) and (n,) each."""
+    starts = range(0, max(len(place), 1), _LOT)
+    return [(place[start : start + _LOT], body[start : start + _LOT]) for start in starts]
 
 
 def _with_pose(model: FieldModel, pose: Pose, place: Array, body: Index) -> Array:

@@ -19,16 +19,16 @@ from ..surfaces import FacePlaces, concatenate
 
 _SEARCH_REACH = 4.0
 _LARGEST_OFFSET = 2.0
-"""Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
+"""Scan points belong to the nearest edge sample within the first distance (mm); a border farther from its edge than the
+second one is ignored."""
 _POINTS_LAST = 0.2
-"""Movement in mm of the edges after which points keep their samples, which are farther apart."""
+"""Points keep their edge samples until the edges have moved by this in mm; the samples are farther apart."""
 _BORDERS_LAST = 0.03
-"""Movement in mm of the edges that changes nothing of where their borders are found."""
+"""Borders are kept until the edges have moved by this in mm."""
 _SHARP_COSINE = 0.7
 _LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
-"""The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
-than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
-counts."""
+"""The edge lies beyond the outermost point by the spacing of one point, as for randomly placed points. Noise carries
+points over the edge: where more than one lies within this part of the noise, the second or third outermost is used."""
 _DENSITY_BAND = (0.5, 2.0)
 """Distance inside the outermost points, in mm, between which the density is counted."""
 _LEAST_BAND_POINTS = 12
@@ -36,7 +36,8 @@ _SEEN_BEYOND_SHARE = 0.15
 _LEAST_UNCERTAINTY = 0.05
 """Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
 _USUAL_LOSS = 0.3
-"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this weighs less."""
+"""Sensors lose points at edges and never see any beyond them: an end farther inside than this, in mm, gets less
+weight."""
 _HUBER_SIGMAS = 2.0
 _DISCARD_HUBERS = 3.0
 _EDGE_NEIGHBOURS = 4
@@ -123,15 +124,17 @@ def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, co
 
 
 def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, noise: float,
-                 known: Borders | None) -> Borders:
+                 spread: float, known: Borders | None) -> Borders:
     """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
-    edges lie where they were looked for."""
+    edges lie where they were looked for. ``noise`` is that of the points, ``spread`` that of those of a face about the
+    shape as it is, in mm."""
     shape = _sharp_edges(edges, sides, control_points)
     if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST:
         return known
     points, row = near.points, near.row
     pairs = (edges.first, edges.second), (edges.second, edges.first)
-    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise)
+    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise,
+                       spread)
              for k, (seen, other) in enumerate(pairs)]
     rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
     samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))
@@ -148,7 +151,8 @@ def _sharp_edges(edges: SharedEdgePlaces, sides: EdgeSides, control_points: Arra
 
 
 def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlaces, other: FacePlaces, sign: Array,
-              sharp: NDArray[np.bool_], control_points: Array, noise: float) -> tuple[Array, Array, Array]:
+              sharp: NDArray[np.bool_], control_points: Array, noise: float, spread: float
+              ) -> tuple[Array, Array, Array]:
     """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
     count = len(edges.edge)
     place = seen.nominal[0] + seen.displacement(control_points)
@@ -159,8 +163,8 @@ def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlac
         return nothing
     local = points - place[row]
     across = np.einsum("nx,nx->n", local, out[row])
-    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * noise
-    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * noise) & (
+    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * spread
+    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * spread) & (
         np.einsum("nx,nx->n", local, away[row]) < -_DENSITY_BAND[0])
     unlike = ~on_seen & (on_other | (across > -_DENSITY_BAND[0]))
     outermost = _from_top(row[on_seen], across[on_seen], count)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array, Index
-from ...robust_weights import TUKEY_SIGMAS, robust_sigma, tukey
+from ...robust_weights import TUKEY_SIGMAS, tukey
 from .correspondence import Correspondence
+from .scatter import Scatter, model_noise, of_cells, patch_sums, sensor_noise, spread
 
 _MEDIAN_EFFICIENCY = 0.64
-_LEAST_POINTS_FOR_NOISE = 200
 
 
 @dataclass(frozen=True)
@@ -23,22 +23,24 @@ class CellHeights:
     height : (cells,) mm, zero where nothing was seen
     weight : (cells,) 1/mm²
     count : (cells,) points that carry weight
-    noise : (faces,) standard deviation in mm
+    scatter : of the heights
     """
 
     height: Array
     weight: Array
     count: Array
-    noise: Array
+    scatter: Scatter
 
 
-def no_heights(cells: int, noise: Array) -> CellHeights:
+def no_heights(cells: int, scatter: Scatter) -> CellHeights:
     """The values before anything was matched."""
-    return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), noise)
+    return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), scatter)
 
 
-def median_heights(found: Correspondence, cells: int, noise: Array, face_of_cell: Index) -> CellHeights:
-    """Median height of every cell, weighted 0.64 n/σ² (the median's efficiency on Gaussian noise)."""
+def median_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int) -> CellHeights:
+    """Median height of every cell, weighted 0.64 n/s² (the median's efficiency on Gaussian noise) with the scale s of
+    the loss."""
+    cells = len(face_of_span) * per_span
     order = np.lexsort((found.height, found.cell))
     cell, height = found.cell[order], found.height[order]
     first = np.flatnonzero(np.r_[True, cell[1:] != cell[:-1]]) if len(cell) else np.zeros(0, dtype=np.intp)
@@ -46,32 +48,34 @@ def median_heights(found: Correspondence, cells: int, noise: Array, face_of_cell
     result, weight, counts = np.zeros(cells), np.zeros(cells), np.zeros(cells)
     at = cell[first]
     result[at] = 0.5 * (height[first + (count - 1) // 2] + height[first + count // 2])
-    weight[at] = np.where(count < 3, 1.0, _MEDIAN_EFFICIENCY) * count / noise[face_of_cell[at]] ** 2
+    scale = scatter.loss[face_of_span[at // per_span]]
+    weight[at] = np.where(count < 3, 1.0, _MEDIAN_EFFICIENCY) * count / scale**2
     counts[at] = count
-    return CellHeights(result, weight, counts, noise)
+    return CellHeights(result, weight, counts, scatter)
 
 
-def tukey_mean_heights(found: Correspondence, cells: int, start: Array, face_of_cell: Index) -> CellHeights:
-    """Mean height of every cell with Tukey's biweight (c = 4.685 σ) about the current surface, weighted n/σ².
+def tukey_mean_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int,
+                least: tuple[float, float]) -> CellHeights:
+    """Mean height of every cell with Tukey's biweight about the current surface, weighted n/(σ² + N τ²).
 
-    ``start`` (faces,) is the noise to fall back on where a face has too few points to measure its own.
+    The N points of a patch of cells share the error τ of the model. Noise σ and τ are measured anew, ``least`` are the
+    smallest that they can be, in mm.
     """
-    noise = face_noise(found, start, face_of_cell)
-    weight = tukey(found.height, TUKEY_SIGMAS * noise[face_of_cell[found.cell]])
-    total = np.bincount(found.cell, weights=weight, minlength=cells)
-    height = np.bincount(found.cell, weights=weight * found.height, minlength=cells) / np.maximum(total, 1e-9)
+    cells = len(face_of_span) * per_span
+    face = np.repeat(face_of_span, per_span)
+    scale = np.maximum(scatter.loss, scatter.of_face)[face[found.cell]]
+    robust = tukey(found.height, TUKEY_SIGMAS * scale)
+    total = np.bincount(found.cell, robust, cells).astype(float)
+    height = np.bincount(found.cell, robust * found.height, cells).astype(float) / np.maximum(total, 1e-9)
     height[total == 0] = 0.0
-    count = np.bincount(found.cell[weight > 0], minlength=cells).astype(float)
-    return CellHeights(height, total / noise[face_of_cell] ** 2, count, noise)
-
-
-def face_noise(found: Correspondence, start: Array, face_of_cell: Index) -> Array:
-    """Robust standard deviation of the heights on every face, within its cells where they hold enough points."""
-    face = face_of_cell[found.cell]
-    order = np.argsort(face, kind="stable")
-    bounds = np.searchsorted(face[order], np.arange(len(start) + 1))
-    noise = start.copy()
-    for k in np.flatnonzero(np.diff(bounds) >= _LEAST_POINTS_FOR_NOISE):
-        height = found.height[order[bounds[k] : bounds[k + 1]]]
-        noise[k] = robust_sigma(height - np.median(height))
-    return np.maximum(noise, 1e-6)
+    used = robust > 0
+    count = np.bincount(found.cell[used], minlength=cells).astype(float)
+    sensor = sensor_noise(found.height[used], found.cell[used], height, count, face[found.cell[used]],
+                          scatter.sensor, least[0])
+    shape = len(face_of_span), per_span
+    model = model_noise(height.reshape(shape), total.reshape(shape), face_of_span, sensor)
+    model = np.maximum(model, least[1])
+    about = np.minimum(scatter.loss, spread(np.abs(found.height), face[found.cell], len(sensor), 0.9))
+    shared = of_cells(patch_sums(total.reshape(shape)), int(np.sqrt(per_span))).ravel()
+    weight = total / (sensor[face] ** 2 + shared * model[face] ** 2)
+    return CellHeights(height, weight, count, Scatter(sensor, model, about))

@@ -23,10 +23,12 @@ class ScanStatistics:
     ----------
     density : points per mm²
     noise : standard deviation in mm about local planes
+    resolution : rounding of the coordinates in mm, as a standard deviation
     """
 
     density: float
     noise: float
+    resolution: float
 
 
 def scan_statistics(scan: Array) -> ScanStatistics:
@@ -37,7 +39,8 @@ def scan_statistics(scan: Array) -> ScanStatistics:
     order = np.argpartition(across, bounds)
     slabs = [order[start : start + _SLAB_POINTS] for start in starts]
     density, noise = np.concatenate([_slab_statistics(scan[slab[np.argsort(across[slab])]]) for slab in slabs], axis=1)
-    return ScanStatistics(float(np.median(density)), max(float(np.median(noise)), 1e-4))
+    resolution = float(np.spacing(np.float32(np.abs(scan).max()))) / np.sqrt(12.0)
+    return ScanStatistics(float(np.median(density)), max(float(np.median(noise)), resolution), resolution)
 
 
 def _slab_statistics(slab: Array) -> Array:

@@ -28,6 +28,7 @@ class FrontLayout:
         self.offset = np.concatenate([[0], np.cumsum(self.own * self.sizes)])
         self.own_rows = [_triple(f.own) for f in fronts]
         self.border_rows = [_triple(f.border) for f in fronts]
+        self.parents = {f.parent for f in fronts}
         self.parent_runs = [_runs(f.in_parent, len(fronts[f.parent].own)) for f in fronts]
         front_of, turn, place = np.empty((3, rows.max() + 1), dtype=np.intp)
         for number, front in enumerate(fronts):
@@ -77,6 +78,7 @@ class FrontCholesky:
         self.own: list[Array] = []
         self.border: list[Array] = []
         rest: dict[int, Array] = {}
+        memory: list[Array] = []
         for number, front in enumerate(layout.fronts):
             rows, k = layout.rows(flat, number), layout.own[number]
             factor, info = lapack.dpotrf(rows[:, :k], clean=0, overwrite_a=1)
@@ -84,14 +86,17 @@ class FrontCholesky:
                 raise np.linalg.LinAlgError("the normal matrix is not positive definite")
             border = blas.dtrsm(1.0, factor, rows[:, k:], trans_a=1, overwrite_b=1)
             if front.parent >= 0:
-                left = blas.dsyrk(-1.0, border, 1.0, rest.pop(number, None), trans=1, overwrite_c=1)
+                left = rest.pop(number) if number in rest else _square(border.shape[1], memory)
+                blas.dsyrk(-1.0, border, float(number in layout.parents), left, trans=1, overwrite_c=1)
                 above, k = layout.rows(flat, front.parent), layout.own[front.parent]
                 if front.parent not in rest:
-                    rest[front.parent] = np.zeros((above.shape[1] - k,) * 2, order="F")
+                    rest[front.parent] = _square(above.shape[1] - k, memory)
+                    rest[front.parent][:] = 0.0
                 own, beyond = layout.parent_runs[number]
                 _add(above[:, :k], left, own, own)
                 _add(above[:, k:], left, own, beyond)
                 _add(rest[front.parent], left, beyond, beyond)
+                memory.append(np.asarray(left.base))
             self.own.append(factor)
             self.border.append(border)
 
@@ -156,17 +161,25 @@ class FrontCholesky:
         return result
 
 
+def _square(size: int, memory: list[Array]) -> Array:
+    """A matrix in the smallest piece of used memory that holds it, or in new memory: fresh pages take longer to come by
+    than to fill."""
+    fits = [number for number, piece in enumerate(memory) if len(piece) >= size * size]
+    piece = memory.pop(min(fits, key=lambda number: len(memory[number]))) if fits else np.empty(size * size)
+    return np.ndarray((size, size), buffer=piece, order="F")
+
+
 def _add(target: Array, left: Array, rows: _Runs, columns: _Runs) -> None:
-    """Add a matrix to another piece by piece."""
-    for here, there in rows:
-        for other_here, other_there in columns:
+    """Add a matrix to another piece by piece, nothing below the diagonal."""
+    for number, (here, there) in enumerate(rows):
+        for other_here, other_there in columns[number if columns is rows else 0 :]:
             target[there, other_there] += left[here, other_here]
 
 
 def _take(target: Array, source: Array, rows: _Runs, columns: _Runs) -> None:
     """The other way round: what `_add` would add to."""
-    for here, there in rows:
-        for other_here, other_there in columns:
+    for number, (here, there) in enumerate(rows):
+        for other_here, other_there in columns[number if columns is rows else 0 :]:
             target[here, other_here] = source[there, other_there]
 
 

@@ -65,8 +65,12 @@ class Pattern:
     def from_vector(self, matrix: bsr_matrix) -> Array:
         """Values of a (3 controls, 3 controls) matrix of 3 × 3 blocks on the pattern: (size, 3, 3)."""
         blocks = np.zeros((self.size, 3, 3))
-        blocks[self.position(np.repeat(np.arange(self.count), np.diff(matrix.indptr)), matrix.indices)] = matrix.data
+        blocks[self.places(matrix)] = matrix.data
         return blocks
+
+    def places(self, matrix: bsr_matrix) -> Index:
+        """Where the blocks of a (3 controls, 3 controls) matrix stand in the pattern."""
+        return self.position(np.repeat(np.arange(self.count), np.diff(matrix.indptr)), matrix.indices)
 
     def matrix(self, blocks: Array) -> bsr_matrix:
         """The pattern's blocks as a scipy matrix of 3 × 3 blocks."""

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, vstack
 from scipy.spatial import cKDTree
 
+from ...arrays import Array
 from ..surfaces import JointPart, Lattices, SpanGrid, normals, places_on_faces
 from .sheet_pairs import parameters
 
@@ -27,10 +28,13 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
     face = np.concatenate([np.full(len(edge.points), edge.faces[0]) for edge in edges])
     uv = np.concatenate([edge.uv[0] for edge in edges])
     normal = normals(cells.nominal, cells.outward)[0]
+    reach = _CONTACT_GAP + _cell_sizes(lattices, cells)
     for number in range(len(part.solids)):
         span, place = np.nonzero(cells.inside & (owner[lattices.face_of_span] == number)[:, None])
         other = np.flatnonzero(owner[face] != number)
-        near = cKDTree(cells.nominal.position[span, place]).query(point[other])[1]
+        tree, within = cKDTree(cells.nominal.position[span, place]), float(reach[span].max(initial=0.0))
+        near = tree.query(point[other], distance_upper_bound=within)[1]
+        other, near = other[near < len(span)], near[near < len(span)]
         span, place = span[near], place[near]
         offset = point[other] - cells.nominal.position[span, place]
         tangents = cells.nominal.tangents[span, place]
@@ -46,3 +50,9 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
             opposite = places_on_faces(part.faces, lattices, lattices.face_of_span[span[which]], there[which])
             rows.append((here.matrix(lattices.count) - opposite.matrix(lattices.count)) / np.sqrt(len(which)))
     return vstack(rows).tocsr()
+
+
+def _cell_sizes(lattices: Lattices, cells: SpanGrid) -> Array:
+    """Length in mm of the sides of a cell together, the largest of every span: (spans,)."""
+    sides = np.linalg.norm(cells.nominal.tangents, axis=3) * lattices.step[:, None] / np.sqrt(cells.inside.shape[1])
+    return np.asarray(sides.sum(axis=2).max(axis=1))

@@ -6,6 +6,7 @@ table serves them all. A closed direction is periodic by construction: its contr
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +14,6 @@ import numpy as np
 from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
 from ...splines import DEGREE, SplineSurface
-
-LEAST_CLOSED_SPANS = 8
-_PROBES_PER_SIDE = 17
 
 
 def cubic(x: Array, derivative: int = 0) -> Array:
@@ -121,17 +119,13 @@ class Lattices:
         return SplineSurface(knots[0], knots[1], points, periodic_u=lattice.periodic[0], periodic_v=lattice.periodic[1])
 
 
-def build_lattices(faces: tuple[FaceGeometry, ...], span: float, turning: float, finer: dict[int, int]) -> Lattices:
-    """Lattices with spans of about ``span`` mm and at most ``turning`` radians of the normal.
-
-    ``finer`` maps a face to the number by which its spans are divided.
-    """
+def build_lattices(faces: tuple[FaceGeometry, ...], counts: Sequence[tuple[int, int]]) -> Lattices:
+    """Lattices with that many spans in u and v."""
     lattices: list[FaceLattice] = []
     first_control = first_span = 0
-    for index, face in enumerate(faces):
+    for face, spans in zip(faces, counts, strict=True):
         u0, u1, v0, v1 = face.surface.range
         periodic = (face.surface.periodic_u, face.surface.periodic_v)
-        spans = _spans(face, span, turning, periodic, finer.get(index, 1))
         step = np.array([(u1 - u0) / spans[0], (v1 - v0) / spans[1]])
         lattice = FaceLattice(np.array([u0, v0]), step, spans, periodic, first_control, first_span)
         lattices.append(lattice)
@@ -141,27 +135,3 @@ def build_lattices(faces: tuple[FaceGeometry, ...], span: float, turning: float,
     return Lattices(tuple(lattices), np.concatenate([f.controls() for f in lattices]),
                     np.repeat([f.step for f in lattices], sizes, axis=0), np.repeat(np.arange(len(faces)), sizes),
                     np.repeat(np.arange(len(faces)), [f.shape[0] * f.shape[1] for f in lattices]))
-
-
-def _spans(face: FaceGeometry, span: float, turning: float, periodic: tuple[bool, bool], finer: int) -> tuple[int, int]:
-    u0, u1, v0, v1 = face.surface.range
-    u, v = np.linspace(u0, u1, _PROBES_PER_SIDE), np.linspace(v0, v1, _PROBES_PER_SIDE)
-    points = face.surface.on_grid(u, v)
-    normals = _normals(points)
-    counts = []
-    for axis in range(2):
-        length = np.linalg.norm(np.diff(points, axis=axis), axis=2).sum(axis=axis).max()
-        step = np.linalg.norm(np.diff(normals, axis=axis), axis=2)
-        turn = (2 * np.arcsin(np.clip(step / 2, 0, 1))).sum(axis=axis).max()
-        count = finer * max(1, int(np.ceil(length / span - 0.25)), int(np.ceil(turn / turning - 0.25)))
-        counts.append(max(count, LEAST_CLOSED_SPANS) if periodic[axis] else count)
-    return counts[0], counts[1]
-
-
-def _normals(grid: Array) -> Array:
-    """Unit normals of the quadrilaterals of a point grid; zero where one has no area (at a pole)."""
-    a = grid[1:, 1:] - grid[:-1, :-1]
-    b = grid[:-1, 1:] - grid[1:, :-1]
-    normal = np.cross(a, b)
-    size = np.linalg.norm(normal, axis=2, keepdims=True)
-    return np.divide(normal, size, out=np.zeros_like(normal), where=size > 1e-12)

@@ -51,11 +51,11 @@ def _faces(problem: Problem, state: State, displacements: Sequence[SplineSurface
                          off)[span, place]
     flags = seen.flags(gap_inside, face, 2 * seen.near)
     points = np.bincount(problem.face_of_cell, weights=state.values.count, minlength=len(problem.part.faces))
-    result = []
+    result, noise = [], state.values.scatter.of_face
     for index, geometry in enumerate(problem.part.faces):
         own = face == index
         result.append(JointFace(geometry.name, displacements[index], int(points[index]), float(seen.share[index]),
-                                float(state.noise[index]), _most(flags[own]), _rms(bands[own]), uv[own], bands[own],
+                                float(noise[index]), _most(flags[own]), _rms(bands[own]), uv[own], bands[own],
                                 flags[own]))
     return tuple(result)
 

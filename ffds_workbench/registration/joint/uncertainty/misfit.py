@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the scan shows of the lattices' own errors: heights that are left, neighbours with the same sign, beyond noise.
+"""The lattices' own errors: residual heights of the scan that have the same sign among neighbours and exceed the noise.
 
 Where priors hold a face off the scan, or its lattice cannot follow, the covariance knows nothing of it.
 """
@@ -9,13 +9,12 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..data import CellHeights
+from ..data import CellHeights, patch_sums
 from ..problem import Problem
 from ..surfaces import by_face
 
 _POOLING_RADIUS = 15.0
 """Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
-_PATCHES_PER_SPAN = 2
 
 
 def misfit(problem: Problem, values: CellHeights) -> Array:
@@ -25,13 +24,14 @@ def misfit(problem: Problem, values: CellHeights) -> Array:
     Controlled Clinical Trials 7, 1986).
     """
     height, weight = values.height.reshape(problem.distance.shape), values.weight.reshape(problem.distance.shape)
-    pull, total = _patch_sums(height * weight), _patch_sums(weight)
+    pull, total = patch_sums(height * weight), patch_sums(weight)
     seen = total > 0
-    excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=1)
+    excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=(1, 2))
     place = _span_middles(problem)
     near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS, workers=-1)
     row, column = np.repeat(np.arange(len(place)), [len(item) for item in near]), np.concatenate(near).astype(np.intp)
-    around = [np.bincount(row, item[column], len(place)) for item in (total.sum(axis=1), pull.sum(axis=1), excess)]
+    around = [np.bincount(row, item[column], len(place))
+              for item in (total.sum(axis=(1, 2)), pull.sum(axis=(1, 2)), excess)]
     information = np.maximum(around[0], 1e-12)
     mean = np.maximum((around[1] / information) ** 2 - 1.0 / information, 0.0)
     varying = np.maximum(around[2] / information, 0.0)
@@ -46,13 +46,3 @@ def nearest_spans(problem: Problem, face: Index, position: Array) -> Index:
 def _span_middles(problem: Problem) -> Array:
     """Middles of the spans `by_face`: (spans, 4)."""
     return by_face(problem.cells.nominal.position.mean(axis=1), problem.lattices.face_of_span)
-
-
-def _patch_sums(cells: Array) -> Array:
-    """Sums over patches of the cells (spans, k): (spans, patches)."""
-    per_span = int(np.sqrt(cells.shape[1]))
-    size = max(1, per_span // _PATCHES_PER_SPAN)
-    count = -(-per_span // size)
-    grid = np.zeros((len(cells), count * size, count * size))
-    grid[:, :per_span, :per_span] = cells.reshape(-1, per_span, per_span)
-    return grid.reshape(-1, count, size, count, size).sum(axis=(2, 4)).reshape(len(cells), -1)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The lengths of one solve, found once: everything that has a unit of length and is no property of the shape."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...errors import RefusedError
+from ..arrays import Array
+from .data import ScanStatistics
+from .surfaces import SpanGrid
+
+_TYPICAL, _SEEN = 0.75, 0.4
+"""Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
+the scan shows the part, or, where a table fills it, some of the part is seen."""
+_REACH = 1.5
+_LEAST_REACH = 3.0
+_STIFF = 30.0
+"""The reach over the scatter of the points about the shape while it is still stiff (unit)."""
+_MODEL = 3e-4
+"""Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """In mm.
+
+    Attributes
+    ----------
+    size : diagonal of the box around the part
+    spacing : between neighbouring points of the scan
+    noise : standard deviation of the scan's points, and their ``resolution``
+    reach : how far the scan may lie from the nominal part
+    """
+
+    size: float
+    spacing: float
+    noise: float
+    resolution: float
+    reach: float
+
+    @property
+    def start(self) -> float:
+        """Standard deviation of a point about the part before it is deformed."""
+        return max(self.noise, self.reach / _STIFF)
+
+    @property
+    def model(self) -> float:
+        """Least standard deviation of what the points of a patch share."""
+        return self.reach * _MODEL
+
+
+def find_lengths(cells: SpanGrid, sample: Array, statistics: ScanStatistics) -> tuple[Lengths, Array]:
+    """The lengths, and how far the points of the sample lie from the nominal part, infinite beyond its size: (n,).
+
+    Raises
+    ------
+    RefusedError : the scan is farther from the part than the part is large
+    """
+    position = cells.nominal.position[cells.inside]
+    size = float(np.linalg.norm(np.ptp(position, axis=0)))
+    apart = np.asarray(cKDTree(position).query(sample, distance_upper_bound=size, workers=-1)[0])
+    typical = float(np.sort(apart)[int(_TYPICAL * (len(apart) - 1))])
+    if not np.isfinite(typical):
+        raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
+                           "check the unit of the scan and align it first.")
+    if typical > _LEAST_REACH / _REACH:
+        back = cKDTree(sample).query(position, workers=-1)[0]
+        typical = min(typical, float(np.quantile(back, _SEEN)))
+    reach = max(_LEAST_REACH, _REACH * typical, 4 * statistics.noise)
+    return Lengths(size, 1 / np.sqrt(statistics.density), statistics.noise, statistics.resolution, reach), apart
