@@ -63,11 +63,7 @@ class Sketch:
         return float(np.median(cKDTree(self.points).query(self.points[:_MEDIAN_POINTS], k=2)[0][:, 1]))
 
     def every(self, step: int) -> Sketch:
-<<<<<<< HEAD
         """The same of fewer points, one of every ``step``."""
-=======
-        """The same with every ``step``-th point."""
->>>>>>> main
         return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
 
 
