@@ -15,6 +15,7 @@ from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
 from .free_motions import FreeMotions, find_free_motions
 from .linear import Pattern
+from .linear.memory import refuse_too_large
 from .lengths import Lengths, find_lengths
 from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
                      make_stiffness)
@@ -128,7 +129,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
 
     Raises
     ------
-    RefusedError : the scan has too few points, or every face is frozen.
+    RefusedError : the scan has too few points, every face is frozen, or there is not enough memory.
     """
     if len(part.frozen) == len(part.faces):
         raise RefusedError("Every face is frozen: leave at least one face free to move.")
@@ -140,8 +141,10 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
     lattices = build_lattices(part.faces, span_counts(part.faces, part.solids, settings.spans, settings.turning, least,
                                                       finer))
+    refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
+    refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
     lengths, apart = find_lengths(cells, sample, statistics)

@@ -31,8 +31,8 @@ _ABSURD_RATIO = (0.12, 6.0)
 """Beyond this a scan that does not lie on the part is in another unit, wherever it lies; theory: off by 10, a whole one
 has no more than .1 or no less than 7."""
 _MOST, _HALF = 0.8, 0.5
-"""Share of the points near the part that has to lie on it to speak for a factor; and how much nearer to the part than
-as they are they have to be, unless they fill the part and did not before."""
+"""Share of the points near the part that has to lie on it to speak for a factor, and of the part's size that they have
+to span to fill it; and how much nearer they have to be, or how much less they have to span, as they are."""
 _REACH, _MARGIN = 0.03, 0.05
 """How far from the part its deformed scan may lie, as a part of the scan's size, and beyond the part's box, of the
 part's. Physical: sheet metal springs back by a few hundredths of its size."""
@@ -117,7 +117,8 @@ def unit_mismatch(scan: Array, low: Array, high: Array, surface: Surface) -> flo
     if fits:
         best = max(fits, key=lambda fit: (round(5.0 * fit.span), fit.count))
         nearer = now.share < _MOST and best.distance < _HALF * now.distance
-        if nearer or best.span > _MOST > now.span:
+        fills = best.span > _MOST and now.span < _HALF * best.span
+        if nearer or fills:
             return best.factor
     return unit_by_size(scan, part.size) if now.distance > _REACH * part.size else None
 
