@@ -141,18 +141,18 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
-    lengths, apart = find_lengths(cells, sample, statistics)
+    distance = distance_to_trims(part.faces, lattices, cells)
+    lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
-    distance = distance_to_trims(part.faces, lattices, cells)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
                    np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
                    constant_rows(pattern, stiffness, couplings),
                    edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths, apart,
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths, apart,
                    None if scan_normals is None else scan_normals[pick])
 
 

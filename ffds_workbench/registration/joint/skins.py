@@ -56,6 +56,9 @@ normals on more than the third share."""
 _NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
 """Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
 and the sine of the step out of their planes is below the third."""
+_TOO_SPARSE = 2.0
+"""Spacing of the scan's points over the thickness of a sheet from which a plane through a dozen neighbours reaches
+farther than four thicknesses and tells no side."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
@@ -65,10 +68,10 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
 
     ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
     nearer side first, or, if the scan's normals tell the side, theirs; None where no sheet is so thin that its sides
-    could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
+    could be mixed up, or the points are too few to tell them. The second result is whether the scan's normals tell.
     """
     sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
-    if not sheets or min(sheets) > _TOO_THICK * reach:
+    if not sheets or min(sheets) > _TOO_THICK * reach or problem.lengths.spacing > _TOO_SPARSE * min(sheets):
         return [None], False
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]

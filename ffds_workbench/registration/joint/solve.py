@@ -159,7 +159,7 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     """The scan points of the stage with their cells on the current shape."""
     points = problem.scan if stage.all_points else problem.sample
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    gate = max(stage.gate, 4 * problem.statistics.noise)
+    gate = max(stage.gate, 4 * problem.lengths.noise)
     found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
                        None if stage.all_points else state.facing)
     if not len(found.point):
