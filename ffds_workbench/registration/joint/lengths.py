@@ -22,6 +22,8 @@ _STIFF = 30.0
 """The reach over the scatter of the points about the shape while it is still stiff (unit)."""
 _BESIDE_EDGE = 0.01
 """The same beside an edge, where no points hold the shape, over the reach (unit)."""
+_PLANES_FAIL = 2.0
+"""Noise about planes through neighbours over that about the nominal part from which the planes saw bends (unit)."""
 _MODEL = 3e-4
 """Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
 
@@ -62,7 +64,8 @@ class Lengths:
 
 def find_lengths(lattices: Lattices, cells: SpanGrid, distance: Array, sample: Array, statistics: ScanStatistics
                  ) -> tuple[Lengths, Array]:
-    """The lengths, for cells with their ``distance`` (spans, k) from the border of their face, and how far the points of the sample lie from the nominal part, infinite beyond its size: (n,).
+    """The lengths, for cells with their ``distance`` (spans, k) from the border of their face, and how far the points
+    of the sample lie from the nominal part, infinite beyond its size: (n,).
 
     Raises
     ------
@@ -81,9 +84,8 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, distance: Array, sample: A
     reach = max(_LEAST_REACH, _REACH * typical)
     frames = make_frames(lattices, cells, cells.nominal, np.zeros(len(distance)), distance)
     found = correspond(sample, frames, reach)
-    noise = min(statistics.noise, _noise_beside(sample[found.point], found, lattices.face_of_span[
-        found.cell // distance.shape[1]]))
-    noise = max(noise, statistics.resolution)
+    beside = _noise_beside(sample[found.point], found, lattices.face_of_span[found.cell // distance.shape[1]])
+    noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)
     return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution, max(reach, 4 * noise)), apart
 
 
@@ -94,7 +96,7 @@ def _noise_beside(points: Array, found: Correspondence, face: Index) -> float:
     heights above the nominal part see of a deformation only its slope.
     """
     if len(points) < 2:
-        return np.inf
+        return float(np.inf)
     step = cKDTree(by_face(points, face)).query(by_face(points, face), k=2, workers=-1)[1][:, 1]
     same = face[step] == face
     return robust_sigma((found.height - found.height[step])[same]) / np.sqrt(2.0) if same.any() else np.inf
