@@ -17,6 +17,7 @@ import Part
 
 from ...errors import InputError, RefusedError
 from .. import topology
+from ..validity import listed, newly_invalid
 from . import document_colours, reader, reading, step_file
 from .read_back import ReadBack, compare
 from .reader import DOCUMENT, placed_shape
@@ -72,7 +73,7 @@ def read(path: str | Path, label: str | None = None) -> Model:
         content = reader.read(path, label)
         return _checked(path, Model(content.shape, content.label, content.decoration))
     shape, about = reading.content(path, label)
-    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])), about["valid"])
+    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])))
 
 
 def _decoration(about: Mapping[str, Any]) -> Decoration:
@@ -81,14 +82,11 @@ def _decoration(about: Mapping[str, Any]) -> Decoration:
     return Decoration(about["product"], tuple(about["solids"]), tuple(about["faces"]), colours)
 
 
-def _checked(path: Path, model: Model, valid: bool | None = None) -> Model:
-    """``valid`` tells what the check of the shape said, if it was checked before."""
+def _checked(path: Path, model: Model) -> Model:
     if model.shape.isNull():
         raise InputError(f"The model {path} holds no shape: it is damaged or empty.")
     if not model.shape.Faces:
         raise InputError(f"The model {path} has no faces: FFDS deforms the faces of a solid, shell or compound.")
-    if not (model.shape.isValid() if valid is None else valid):
-        raise InputError(f"The model {path} is not a valid shape (Part: Check geometry lists why): repair it first.")
     return model
 
 
@@ -135,8 +133,10 @@ def write(model: Model, path: Path) -> ReadBack:
             raise RefusedError(f"A STEP file would {different}: write .brep or .FCStd, which keep them.")
     else:
         back = _write_exactly(model, path)
-    if model.shape.isValid() and not back.shape.isValid():
-        raise RefusedError(f"The {suffix} file does not read back as a valid shape{_OTHER[suffix in _STEP]}.")
+    worse = newly_invalid(model.shape, back.shape)
+    if worse:
+        raise RefusedError(f"The {suffix} file does not read back as a valid shape ({listed(worse)})"
+                           f"{_OTHER[suffix in _STEP]}.")
     return back
 
 
