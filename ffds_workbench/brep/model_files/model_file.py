@@ -18,7 +18,7 @@ import Part
 from ...errors import InputError, RefusedError
 from .. import topology
 from ..validity import listed, newly_invalid
-from . import document_colours, reader, reading, step_file
+from . import document_colours, reader, reading, step_file, step_order
 from .read_back import ReadBack, compare
 from .reader import DOCUMENT, placed_shape
 from .step_colours import Decoration
@@ -111,6 +111,15 @@ def check_output(path: Path) -> None:
     """Refuse a model format that cannot be written (InputError)."""
     if path.suffix.lower() not in OUTPUT_FORMATS:
         raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
+
+
+def check_numbers(nominal: Model, path: Path) -> None:
+    """Refuse a format that cannot number edges as the nominal model does, before any work is done (RefusedError)."""
+    faces = step_order.disordered(nominal.shape) if path.suffix.lower() in _STEP else ()
+    if faces:
+        names = listed([f"Face{face + 1}" for face in faces])
+        raise RefusedError(f"A STEP file cannot keep the numbers of this model's edges: they go round {names} in "
+                           f"another order than they are numbered. Write .brep or .FCStd, which keep them.")
 
 
 def write(model: Model, path: Path) -> ReadBack:
