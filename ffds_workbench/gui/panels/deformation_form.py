@@ -74,6 +74,7 @@ class DeformationForm(Form):
                               tr("An as-built part beside the nominal one follows it and the scan; replacing is for "
                                  "plain shapes without a history"))
         self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
+        self._figures.setToolTip(tr("Distances of the scan from the faces, and the share of the faces that it shows"))
         self._message.setStyleSheet("color: #b3401f")
         self._other_side = named(QtWidgets.QPushButton(), "FfdsOtherSide",
                                  tr("Deform the face on the side of the sheet that the scan shows"))
@@ -260,14 +261,16 @@ class DeformationForm(Form):
         self._figures.setText(
             f"<table width='100%'><tr><td>{tr('Deviation')},&nbsp;mm</td><td align='right'>{tr('mean')}</td>"
             f"<td align='right'>95&nbsp;%</td></tr>"
-            f"{rows}</table>" + tr("Coverage {share} %").format(share=f"{100 * figures[4]:.0f}"))
+            f"{rows}</table>" + tr("The scan shows {share} % of it").format(share=f"{100 * figures[4]:.0f}"))
         self._legend.show_deviations(after, limit)
 
     def show_progress(self, text: str) -> None:
         """Say what is being done, nothing for no work."""
-        self._doing.setText(f"{text} …")
-        self._progress.setValue(0 if not text else self._progress.value())
-        self._progress.step()
+        if text:
+            self._doing.setText(f"{text} …")
+            self._progress.step()
+        else:
+            self._progress.setValue(0)
         self._doing.setVisible(bool(text))
         self._progress.setVisible(bool(text))
 

@@ -201,7 +201,7 @@ class DeformationPanel:
     def _draw(self, job: Job, patches: list[Patch]) -> None:
         if not self._watching:
             return
-        limit = good_limit(np.concatenate([patch.before for patch in patches]))
+        limit = good_limit(np.concatenate([patch.after for patch in patches]))
         self._overlay.cover(*self._covered(job))
         self._drawing.show(job.source.model.shape, patches, job.request.freeze, limit, self._wished.lattice,
                            job.source.T_document_part)
