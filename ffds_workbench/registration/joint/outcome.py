@@ -74,7 +74,7 @@ def _refuse_off_scan(problem: Problem, state: State) -> None:
     worst = int(np.argmax(after)) if len(after) else 0
     if len(after) and after[worst] > max(_OFF_IN_NOISES * max(noise, _NEGLIGIBLE * problem.size), _OFF_SHARE * before):
         name = problem.part.faces[judged[worst]].name
-        raise RefusedError(f"The registration leaves {name} {after[worst]:.2g} mm off its scan points, whose noise is "
+        raise RefusedError(f"The registration leaves {name} off its scan points, by {after[worst]:.2g} mm where the noise is "
                            f"{noise:.2g} mm: align the scan better, or register the face by itself (--face {name}).")
 
 
