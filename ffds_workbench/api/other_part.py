@@ -16,9 +16,9 @@ from ..registration.uv_raster import make_raster
 from ..scan.cloud import PointCloud
 from .aligning import target_of_shape
 
-_FAR = 0.05
+_LARGEST_DEFORMATION = 0.05
 """Of the part's size (a physical assumption): what a part is deformed by is less than a twentieth of its size."""
-_FAR_SHARE = 0.25
+_UNEXPLAINED_SHARE = 0.25
 """Share of the scan beyond that from which the alignment is asked (theory: where three quarters lie on the part, the
 solve holds; what else is in the scan is clutter)."""
 _SAMPLE, _CELLS = 4000, 256
@@ -36,9 +36,9 @@ def refuse_other_part(part: Workpiece, cloud: PointCloud) -> None:
     some = np.random.default_rng(0).permutation(len(cloud.points))[:_SAMPLE]
     rasters = [make_raster(part.geometry(index), _CELLS) for index in range(len(part.faces))]
     places = np.concatenate([raster.position[raster.inside] for raster in rasters])
-    far = _FAR * float(np.linalg.norm(np.ptp(places, axis=0)))
+    far = _LARGEST_DEFORMATION * float(np.linalg.norm(np.ptp(places, axis=0)))
     distance, _ = cKDTree(places).query(cloud.points[some], distance_upper_bound=far)
-    if np.isinf(distance).mean() <= _FAR_SHARE:
+    if np.isinf(distance).mean() <= _UNEXPLAINED_SHARE:
         return
     for shape, points, sentence in _known:
         if shape.isEqual(part.shape) and np.array_equal(points, cloud.points[some]):

@@ -25,7 +25,7 @@ from .outcome import refuse_unsound, summarise
 from .prior_trust import is_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
-from .skins import candidate_outward_normals, choose_skin
+from .skins import candidate_outward_normals, choose_skin, outward_normals_of_all
 from .state import State, StepCache, start
 from .surfaces import Jet, JointPart, close_seams
 from .uncertainty import misfit
@@ -114,7 +114,7 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
         return state
     cache = state.cache
     if stage.all_points and not stage.body:
-        cache = replace(cache, nearest=None, factor=None)
+        cache = replace(cache, nearest=None, factor=None, facing=outward_normals_of_all(problem, state.facing))
     if stage.soft:
         cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
                         body=None)
@@ -161,7 +161,7 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     gate = max(stage.gate, 4 * problem.statistics.noise)
     found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
-                       None if stage.all_points else state.facing)
+                       state.cache.facing if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     return found
