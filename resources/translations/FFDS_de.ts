@@ -1614,10 +1614,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan liegt {0} mm neben dem Teil: Richten Sie ihn zuerst am Modell aus.</translation>
     </message>
     <message>
-      <source>The scan may show the other skin of the sheet: everything may be off by its thickness, {0} mm. Scan some of its border as well.</source>
-      <translation>Der Scan kann die andere Seite des Blechs zeigen: Alles kann um dessen Dicke, {0} mm, daneben liegen. Scannen Sie auch etwas von seinem Rand.</translation>
-    </message>
-    <message>
       <source>The scan measures {0} mm and the model {1} mm: the scan seems to be in {2}, not in {3} (use --scan-unit {4}).</source>
       <translation>Der Scan misst {0} mm und das Modell {1} mm: Der Scan ist wohl in {2}, nicht in {3} (--scan-unit {4}).</translation>
     </message>
@@ -1632,10 +1628,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan points near {0} do not form its surface: only {1} of them agree on one; leave the face out, or check the alignment of the scan.</source>
       <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
-    </message>
-    <message>
-      <source>The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as well, use a scan with normals, or align it to less than half the sheet's thickness first.</source>
-      <translation>Der Scan zeigt nur eine Seite eines dünnen Blechs, und nichts verrät, welche: Scannen Sie auch etwas vom Rand, nehmen Sie einen Scan mit Normalen, oder richten Sie ihn zuerst auf weniger als die halbe Blechdicke genau aus.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
@@ -1918,8 +1910,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
+      <source>Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {0} mm, and the bands say so. Scan some of its border as well, or use a scan with normals.</source>
+      <translation>Welche Haut des Blechs der Scan zeigt, ist geraten: Alles kann um seine Dicke, {0} mm, daneben liegen, und die Bänder sagen es. Scannen Sie auch etwas von seinem Rand, oder nehmen Sie einen Scan mit Normalen.</translation>
+    </message>
+    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
+    </message>
+    <message>
+      <source>a body of revolution about the axis ({0}, {1}, {2}), the same end for end</source>
+      <translation>ein Drehkörper um die Achse ({0}, {1}, {2}), von beiden Enden her gleich</translation>
     </message>
     <message>
       <source>ambiguous ({0} poses): {1}</source>
@@ -1988,6 +1988,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>the scan fits in several poses alike</source>
       <translation>der Scan passt in mehreren Lagen gleich gut</translation>
+    </message>
+    <message>
+      <source>the scan fits, but shows only {0} % of the part, too little to tell this pose from others: scan more of it, or align it by three points</source>
+      <translation>der Scan passt, zeigt aber nur {0} % des Teils, zu wenig, um diese Lage von anderen zu unterscheiden: Scannen Sie mehr davon, oder richten Sie ihn an drei Punkten aus</translation>
     </message>
     <message>
       <source>vertices</source>
