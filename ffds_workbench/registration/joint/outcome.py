@@ -116,7 +116,7 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
         solids=tuple(_solid_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),
-        unsure=state.unsure)
+        unsure=state.unsure, free_motions=problem.free_motions.texts)
 
 
 def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:
