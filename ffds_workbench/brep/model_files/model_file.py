@@ -100,6 +100,8 @@ def from_object(item: object) -> Model:
     if isinstance(item, Part.Shape):
         return _checked(Path("(shape)"), Model(item, "Shape"))
     if not hasattr(item, "Shape"):
+        if item is None:
+            raise InputError("There is no part: select one, or choose one in the properties.")
         raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part.")
     colours = ()
     if getattr(item, "ViewObject", None) is not None:
