@@ -15,6 +15,7 @@ import Part
 
 from ..brep import topology
 from ..brep.topology import Topology
+from ..brep.validity import invalid_parts, listed
 from ..errors import RefusedError
 from ..registration.arrays import Array
 from .boolean_check import BodyErrors, boolean_checks, total
@@ -35,13 +36,17 @@ class Structure:
     Attributes
     ----------
     topology : adjacency by index
-    valid : OCCT's verdict
+    invalid : names of the sub-shapes that OCCT's check finds fault with
     closed_shells : for each shell, whether it is closed
     """
 
     topology: Topology
-    valid: bool
+    invalid: tuple[str, ...]
     closed_shells: tuple[bool, ...]
+
+    @property
+    def valid(self) -> bool:
+        return not self.invalid
 
     @property
     def closed(self) -> bool:
@@ -90,13 +95,7 @@ class Certificate:
 
     def problems(self) -> list[str]:
         """One sentence for everything that is worse than before; empty for a clean result."""
-        sentences = broken(self.before, self.after)
-        if self.excess_gap > GAP_LIMIT:
-            sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
-                             f"{self.after.max_edge_gap:.2g} mm.")
-        if self.after.max_tolerance > self.tolerance_line:
-            sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
-                             f"{self.after.max_tolerance:.2g} mm.")
+        sentences = broken(self.before, self.after) + self.looser()
         worse = [(was, count) for was, count in zip(self.before.boolean_check, self.after.boolean_check, strict=False)
                  if count is not None and count > (was or 0)]
         if worse:
@@ -104,6 +103,17 @@ class Certificate:
             was = sum(known) if len(known) == len(worse) else "an unknown number of"
             count = sum(count for _, count in worse)
             sentences.append(f"The check for Boolean operations reports {count} errors, {was} before.")
+        return sentences
+
+    def looser(self) -> list[str]:
+        """One sentence each where edges gape or tolerances are larger than they may be."""
+        sentences = []
+        if self.excess_gap > GAP_LIMIT:
+            sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
+                             f"{self.after.max_edge_gap:.2g} mm.")
+        if self.after.max_tolerance > self.tolerance_line:
+            sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
+                             f"{self.after.max_tolerance:.2g} mm.")
         return sentences
 
     def as_dict(self) -> dict[str, object]:
@@ -124,8 +134,9 @@ def broken(before: Structure, after: Structure) -> list[str]:
                  for kind in counts[0] if counts[0][kind] != counts[1][kind]]
     if not sentences and before.topology != after.topology:
         sentences.append("The order of the faces, edges or vertices changed.")
-    if not after.valid:
-        sentences.append("The shape is not valid.")
+    worse = [name for name in after.invalid if name not in before.invalid]
+    if worse:
+        sentences.append(f"The shape is not valid: {listed(worse)}.")
     if not sentences:
         opened = [i + 1 for i, (was, is_now) in enumerate(zip(before.closed_shells, after.closed_shells, strict=True))
                   if was and not is_now]
@@ -139,7 +150,7 @@ def enforce(before: Structure, after: Structure) -> None:
     Raises
     ------
     RefusedError
-        The result is not valid, lost a sub-shape, changed its order or opened.
+        The result is not valid where it was before, lost a sub-shape, changed its order or opened.
     """
     lost = broken(before, after)
     if lost:
@@ -163,13 +174,13 @@ def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None
 
 def structure(shape: Part.Shape) -> Structure:
     """What of a shape its deformation must keep."""
-    return Structure(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells))
+    return Structure(topology.read(shape), invalid_parts(shape), tuple(bool(s.isClosed()) for s in shape.Shells))
 
 
 def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,), known: Structure | None = None) -> Condition:
     """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`, ``known`` from `structure`."""
     own = known or structure(shape)
-    return Condition(own.topology, own.valid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
+    return Condition(own.topology, own.invalid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
                      boolean_check)
 
 

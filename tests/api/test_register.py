@@ -7,7 +7,8 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench import api
+from ffds_workbench import RESOURCES, api
+from ffds_workbench.api import methods
 
 NOISE = 0.05
 
@@ -112,6 +113,21 @@ def test_requests_that_cannot_be_read(scan, arguments, message):
         api.register(Part.makeBox(60, 40, 5), scan, **arguments)
 
 
+@pytest.mark.parametrize("other", ["cylinder", "shifted"])
+def test_a_scan_of_another_part_or_place_is_refused_before_the_solve(other, monkeypatch):
+    """A cylinder through the bracket of the example, and the bracket's own scan 25 mm aside."""
+    model = api.read_model(RESOURCES / "examples" / "bracket.step")
+    if other == "cylinder":
+        cylinder = Part.makeCylinder(30, 100, FreeCAD.Vector(55, 35, -20))
+        points, message = api.simulate(cylinder, api.SensorSettings(spacing=1.5)).scan.points, "not show this part"
+    else:
+        points = api.read_scan(RESOURCES / "examples" / "bracket_scan.ply").points[::4] + [0.0, 25.0, 10.0]
+        message = "mm off the part: align it"
+    monkeypatch.setattr(methods, "register_joint", lambda *_: pytest.fail("the solve was begun"))
+    with pytest.raises(api.RefusedError, match=message):
+        api.register(model, points)
+
+
 def test_an_array_of_another_shape():
     with pytest.raises(api.InputError, match=r"\(n, 3\)"):
         api.deviation(Part.makeBox(1, 1, 1), np.zeros((5, 2)))
@@ -132,3 +148,16 @@ def test_a_hidden_face_is_carried_and_its_band_is_wider():
     assert faces[1]["Face6"]["band"] < 2 * faces[0]["Face6"]["band"]
     below = [edge for edge in hidden["edges"] if set(edge["along"]["flags"]) == {"carried"}]
     assert below and all(len(edge["along"]["bands"]) == len(edge["along"]["flags"]) for edge in hidden["edges"])
+
+
+def test_before_is_what_the_deviation_of_the_nominal_is():
+    """A plate of 5 mm whose top is seen 3 mm too low: its points are nearer to the bottom before, not after."""
+    random = np.random.default_rng(2)
+    sides = [np.column_stack([random.uniform((0, 0), (60, 40), (8000, 2)), np.full(8000, z)]) for z in (2.0, -3.0)]
+    points = np.concatenate(sides) + random.normal(0, NOISE, (16000, 3)) * [0, 0, 1]
+    nominal = Part.makeBox(60, 40, 5)
+    result = api.register(nominal, points)
+    assert result.report["deviation_before"] == api.deviation(nominal, points).report["deviation"]
+    after = api.deviation(result.shape, points).report["deviation"]
+    assert result.report["deviation_after"] == pytest.approx(after, abs=1e-9)
+    assert result.report["deviation_before"]["mean"] == pytest.approx(2.5, abs=0.1)

@@ -25,7 +25,7 @@ from .outcome import refuse_unsound, summarise
 from .prior_trust import is_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
-from .skins import candidate_outward_normals, choose_skin
+from .skins import candidate_outward_normals, choose_skin, outward_normals_of_all
 from .state import State, StepCache, start
 from .surfaces import Jet, JointPart, close_seams
 from .uncertainty import misfit
@@ -114,7 +114,7 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
         return state
     cache = state.cache
     if stage.all_points and not stage.body:
-        cache = replace(cache, nearest=None, factor=None)
+        cache = replace(cache, nearest=None, factor=None, facing=outward_normals_of_all(problem, state.facing))
     if stage.soft:
         cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
                         body=None)
@@ -147,6 +147,10 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
         add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
     near = cache.factor if stage.bending > _FACTOR_LASTS * cache.factor_bending else None
     step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, near)
+    free = problem.free_motions
+    if free.texts:
+        step = free.hold(state.control_points, step, np.array([factor.solve(row.ravel()).reshape(-1, 3)
+                                                               for row in free.rows]))
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
@@ -161,7 +165,7 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     gate = max(stage.gate, 4 * problem.statistics.noise)
     found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
-                       None if stage.all_points else state.facing)
+                       state.cache.facing if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     return found
@@ -185,7 +189,7 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
         borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
-                               problem.lengths.start, cache.borders)
+                               np.maximum(state.values.scatter.loss, problem.lengths.border), cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
             cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))
