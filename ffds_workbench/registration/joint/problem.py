@@ -2,7 +2,8 @@
 """Everything about a part and a scan that stays the same while the joint solve runs."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -90,6 +91,10 @@ class Problem:
         if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
             return known
         return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
+
+    def without_points_on(self, faces: Sequence[int]) -> Problem:
+        """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
+        return replace(self, margin=np.where(np.isin(self.lattices.face_of_span, faces), np.inf, self.margin))
 
     @property
     def size(self) -> float:
