@@ -30,13 +30,13 @@ _CLUTTERED_RATIO = 16.0
 _ABSURD_RATIO = (0.12, 6.0)
 """Beyond this a scan that does not lie on the part is in another unit, wherever it lies; theory: off by 10, a whole one
 has no more than .1 or no less than 7."""
-_MOST, _HALF = 0.8, 0.5
+_ON_PART, _HALF = 0.8, 0.5
 """Share of the points near the part that has to lie on it to speak for a factor, and of the part's size that they have
 to span to fill it; and how much nearer they have to be, or how much less they have to span, as they are."""
 _REACH, _MARGIN = 0.03, 0.05
 """How far from the part its deformed scan may lie, as a part of the scan's size, and beyond the part's box, of the
 part's. Physical: sheet metal springs back by a few hundredths of its size."""
-_LOOKED_AT, _FEW = 2_000, 50
+_LOOKED_AT, _NEAR_POINTS = 2_000, 50
 """Points of a scan that are looked at, and how many near the part tell anything."""
 
 
@@ -60,7 +60,7 @@ class _Part:
         from the surface (n,)."""
         margin = _MARGIN * self.size
         near = scan[((scan > self.low - margin) & (scan < self.high + margin)).all(axis=1)]
-        if len(near) < min(_FEW, len(scan)):
+        if len(near) < min(_NEAR_POINTS, len(scan)):
             return near[:0], np.empty(0)
         apart, place = self.tree.query(near)
         off = np.abs(((near - self.points[place]) * self.normals[place]).sum(axis=1))
@@ -113,11 +113,11 @@ def unit_mismatch(scan: Array, low: Array, high: Array, surface: Surface) -> flo
 
     now = _fit(part, some, 1.0, ratio)
     fits = [fit for fit in (_fit(part, some, factor, ratio) for factor in FACTORS
-                            if _EXPLAINED_RATIO[0] < ratio * factor < _CLUTTERED_RATIO) if fit.share > _MOST]
+                            if _EXPLAINED_RATIO[0] < ratio * factor < _CLUTTERED_RATIO) if fit.share > _ON_PART]
     if fits:
         best = max(fits, key=lambda fit: (round(5.0 * fit.span), fit.count))
-        nearer = now.share < _MOST and best.distance < _HALF * now.distance
-        fills = best.span > _MOST and now.span < _HALF * best.span
+        nearer = now.share < _ON_PART and best.distance < _HALF * now.distance
+        fills = best.span > _ON_PART and now.span < _HALF * best.span
         if nearer or fills:
             return best.factor
     return unit_by_size(scan, part.size) if now.distance > _REACH * part.size else None
