@@ -22,7 +22,7 @@ from .joint_result import JointRegistration
 from .lattice_refinement import faces_to_refine, transfer
 from .linear import solve_normal_equations
 from .outcome import refuse_unsound, summarise
-from .prior_trust import is_isometric, update_prior_trust
+from .prior_trust import is_isometric, may_be_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .skins import candidate_outward_normals, choose_skin
@@ -102,14 +102,15 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
     """A soft stage; a sheet that complies without any stretch has not stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
-        unstretched = run_stage(problem, replace(stage, allowance=1.0), state)
+        unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):
             return unstretched
     return run_stage(problem, stage, state)
 
 
-def run_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """Gauss-Newton steps of one stage, until they are small against what the stage can tell."""
+def run_stage(problem: Problem, stage: Stage, state: State,
+              promising: Callable[[State], bool] = lambda state: True) -> State:
+    """Gauss-Newton steps of one stage, while it is ``promising``, until they are small against what it can tell."""
     if stage.body and not body_informs(problem, state.trust):
         return state
     cache = state.cache
@@ -120,7 +121,10 @@ def run_stage(problem: Problem, stage: Stage, state: State) -> State:
                         body=None)
     state = replace(state, cache=cache)
     for _ in range(stage.iterations):
-        before, state = state, gauss_newton_step(problem, stage, update_prior_trust(problem, state, stage))
+        before, judged = state, update_prior_trust(problem, state, stage)
+        if not promising(judged):
+            return judged
+        state = gauss_newton_step(problem, stage, judged)
         loosening = stage.all_points and state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
         if state.last_step < stage.enough and not (loosening and _misfits_scan(problem, state)):
             break
