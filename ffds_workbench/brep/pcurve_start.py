@@ -18,7 +18,8 @@ from .edges import PlacedCurve, Trace
 from .occt_text import fit_curve, print_curve
 
 _SAFETY, _LATEST_START = 1.3, 9.5e-5
-"""How much more, and the latest start in mm; an edge that gapes more does so in the nominal."""
+"""Safety factor on the gap, and the latest start in mm: an edge that gapes more than that does so in the nominal part
+already."""
 _LEAST_SPAN, _LONGEST_SPAN = 1e-3, 0.2
 """Part of the edge along which the pcurve catches up; more where the edge is short, but no more than this."""
 _SPAN_PER_LATENESS = 6.0

@@ -24,7 +24,7 @@ GridFunction = Callable[[Array, Array], Array]
 
 _CHECK_PLACES = np.array([0.21, 0.5, 0.79])
 _CHECK_LINES = 16, 60
-"""Lines across along which errors are looked at: while the knots are refined, and to be sure in the end."""
+"""Number of lines along which errors are checked: while the knots are refined, and in the final check."""
 _SHORTEST_SPAN = 1e-5
 """Spans shorter than this share of their side are not divided: at a kink that no knot marks it would never end, and
 OCCT reads no surface whose knots coincide but for rounding."""

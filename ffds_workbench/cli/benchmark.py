@@ -23,6 +23,7 @@ def add(commands: argparse._SubParsersAction) -> None:
                                  help="folder for tables and pictures")
         measurement.set_defaults(run=benchmark, more=lambda options: {})
     _add_world(measurements.choices["world"])
+    _add_fuzz(measurements.choices["fuzz"])
 
 
 def _add_world(command: argparse.ArgumentParser) -> None:
@@ -49,6 +50,15 @@ def _world(options: argparse.Namespace) -> dict[str, Any]:
     chosen = {name: value for name in names if (value := getattr(options, name)) is not None}
     return {"parts": options.parts, "primitives": options.primitives, "settings": ScanSettings(**chosen),
             "deformations": options.deformations or DEFORMATIONS, "workers": options.workers, "limit": options.limit}
+
+
+def _add_fuzz(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--scans", type=int, default=2000, metavar="N",
+                         help="damaged files of each kind of scan (default: 2000)")
+    command.add_argument("--models", type=int, default=20, metavar="N",
+                         help="damaged files of each kind of model (default: 20)")
+    command.add_argument("--seed", type=int, default=1, metavar="N", help="of the random numbers (default: 1)")
+    command.set_defaults(more=lambda options: {"scans": options.scans, "models": options.models, "seed": options.seed})
 
 
 def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:

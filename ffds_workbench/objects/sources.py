@@ -10,7 +10,7 @@ import numpy as np
 import Part
 from numpy.typing import NDArray
 
-from ..brep.model_files import Model, model_file
+from ..brep.model_files import Model, model_file, outer_placement
 from ..errors import InputError
 from ..scan.cloud import PointCloud
 
@@ -64,7 +64,7 @@ def read_source(item: Any) -> Source:
     item = standing_for(item)
     shape = Part.getShape(item).copy()
     placement = shape.Placement
-    matrix = np.array(model_file.outer_placement(item).multiply(placement).toMatrix().A).reshape(4, 4)
+    matrix = np.array(outer_placement(item).multiply(placement).toMatrix().A).reshape(4, 4)
     if abs(abs(np.linalg.det(matrix[:3, :3])) - 1.0) > 1e-6:
         raise InputError(f"{item.Label} is scaled by its placement: make a simple copy of it first.")
     shape.Placement = FreeCAD.Placement()

@@ -117,7 +117,7 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
 
 
 def joined(parts: Sequence[SurfaceCoordinates], raster: Raster) -> SurfaceCoordinates:
-    """All of several."""
+    """Several sets of foot points as one."""
     index = np.concatenate([part.index for part in parts] or [np.zeros(0, dtype=np.intp)])
     x, y, height = (np.concatenate([getattr(part, name) for part in parts] or [np.zeros(0)]) for name in _COLUMNS[1:])
     return SurfaceCoordinates(index, x, y, height, raster.shape)

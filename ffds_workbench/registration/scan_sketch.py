@@ -23,18 +23,18 @@ _PLANE_NEIGHBOURS = (14, 40)
 _ROUGHNESS = 0.22
 """Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
 _SPARSE_IN_SCAN, _ALONE_AMONG_OWN = 4.0, 1.6
-"""A point is a stray one if its neighbours are farther by this factor than they are in the median of the scan, or than
-its neighbours' own are."""
+"""A point is isolated if its neighbours are farther away, by the first factor, than in the median of the scan, or, by
+the second, than the neighbours' own neighbours are."""
 _DENSITY_NEIGHBOURS, _NEIGHBOUR_STRIDE, _MEDIAN_POINTS, _DOUBTFUL_DENSITY = 9, 3, 500, 1.3
-"""Neighbours that count, itself among them; every which of them is asked for its own; points for the median; and factor
-over it from which a point may be stray."""
+"""Number of neighbours, the point itself included; stride of those that are compared with their own neighbours; number
+of points for the median; and factor above the median from which a point is examined."""
 _INVERSE_STEPS = 2
-"""Steps of inverse iteration for a normal after the first one: each divides its error by that of the two least
-eigenvalues, 4 and more where the surface is one."""
+"""Further steps of inverse iteration for a normal. Each divides the error by the ratio of the two smallest eigenvalues,
+which is 4 or more on a surface."""
 _COUNT_TOLERANCE = 1.15
-"""So many times as many points are as many."""
+"""Thinning stops when the number of points is within this factor of the number wanted."""
 _CELLS_PER_POINT = 100
-"""Cells per point up to which a table of all cells is faster than to sort the points."""
+"""With at most this many cells per point, a table of all cells is faster than sorting the points."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Sketch:
         return float(np.median(cKDTree(self.points).query(self.points[:_MEDIAN_POINTS], k=2)[0][:, 1]))
 
     def every(self, step: int) -> Sketch:
-        """The same of fewer points."""
+        """The same with every ``step``-th point."""
         return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
 
 
@@ -96,7 +96,8 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_C
     generator : random choice of the points
     count : how many points to aim at
     pool_size : how many points of the scan to look at
-    finer : so many times as many points tell the sides of the surface: far ones link what is not one surface
+    finer : the sides of the surface are found on this many times ``count`` points, because distant neighbours link
+        surfaces that are not connected
     """
     pool = scan if len(scan) <= pool_size else scan.take(generator.integers(0, len(scan), pool_size), axis=0)
     tree = cKDTree(pool, balanced_tree=False, compact_nodes=False)

@@ -7,6 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+FARTHEST = 1e12
+"""Theory: beyond this a double of 53 bits tells coordinates in mm no closer than 1e-4 apart: no measured position."""
+
 
 @dataclass(frozen=True)
 class PointCloud:

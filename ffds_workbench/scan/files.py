@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from .cloud import PointCloud
+from .cloud import FARTHEST, PointCloud
 from .formats import e57, pcd, ply, stl, text
 from .normals import fused, unit_normals
 from .units import MILLIMETRES
@@ -24,8 +24,6 @@ _READERS: dict[str, Callable[[Path], NDArray[np.float64]]] = {
     ".xyz": text.read, ".asc": text.read, ".txt": text.read, ".csv": text.read, ".pts": text.read,
 }
 FORMATS = tuple(_READERS)
-_FARTHEST = 1e12
-"""Theory: beyond this a double of 53 bits tells coordinates no closer than 1e-4 apart, finer than any scanner in mm."""
 
 
 def read(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
@@ -71,7 +69,7 @@ def _read_one(path: Path) -> PointCloud:
 
 def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
     """Finite points only, and none that is out of this world; a file with no two different points is refused."""
-    finite = (np.abs(rows[:, :3]) < _FARTHEST).all(axis=1)
+    finite = (np.abs(rows[:, :3]) < FARTHEST).all(axis=1)
     points = np.ascontiguousarray(rows[finite, :3], dtype=np.float64)
     dropped = int(len(rows) - len(points))
     if len(points) == 0:

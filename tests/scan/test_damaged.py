@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ffds_workbench.benchmark.simulated import fuzz_seeds, mutations
+from ffds_workbench.benchmark.fuzz import mutations, seeds
 from ffds_workbench.errors import InputError
 from ffds_workbench.scan import files
 from ffds_workbench.scan.formats import lzf
@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 hypothesis = pytest.importorskip("hypothesis")
 from hypothesis import strategies
 
-SEEDS = fuzz_seeds.scans()
+SEEDS = seeds.scans()
 ALL = [content for contents in SEEDS.values() for content in contents]
 numbers = strategies.floats(allow_nan=False, allow_infinity=False, width=32, min_value=-2.0**39, max_value=2.0**39)
 """What both single precision and the reader's own bound on coordinates, 1e12, let through."""
@@ -81,9 +81,9 @@ def test_points_are_read_as_they_were_written(tmp_path, name):
         if kind == "xyz":
             content = "\n".join(" ".join(map(repr, row)) for row in points.tolist()).encode()
         elif kind == "ply":
-            content = fuzz_seeds.ply(points, encoding)
+            content = seeds.ply(points, encoding)
         else:
-            content = fuzz_seeds.pcd(np.hstack([points, np.zeros_like(points)]), encoding)
+            content = seeds.pcd(np.hstack([points, np.zeros_like(points)]), encoding)
         path = tmp_path / f"scan.{kind}"
         path.write_bytes(content)
         # The ascii seeds have six decimals.
@@ -96,7 +96,7 @@ def test_points_are_read_as_they_were_written(tmp_path, name):
 @hypothesis.given(strategies.lists(strategies.binary(max_size=40) | strategies.integers(1, 400).map(bytes)))
 def test_lzf_gives_back_what_was_packed(pieces):
     data = b"".join(pieces)
-    packed = fuzz_seeds.lzf(data)
+    packed = seeds.lzf(data)
     assert lzf.decompress(packed, len(data)) == data
     for wrong in (len(data) + 1, max(len(data) - 1, 0) + (not data)):
         with pytest.raises(ValueError):
@@ -163,9 +163,9 @@ E57 = {
 @pytest.mark.parametrize("name", E57)
 def test_e57_that_makes_no_sense(tmp_path, name):
     points = np.random.default_rng(5).uniform(0, 100, (50, 3))
-    assert outcome(tmp_path, ".e57", fuzz_seeds.e57(points)) == ""
-    content = fuzz_seeds.e57(points, *E57[name])
-    assert content != fuzz_seeds.e57(points)
+    assert outcome(tmp_path, ".e57", seeds.e57(points)) == ""
+    content = seeds.e57(points, *E57[name])
+    assert content != seeds.e57(points)
     assert "damaged or cut off: its E57 sections" in outcome(tmp_path, ".e57", content)
 
 

@@ -30,7 +30,8 @@ _FADE_SHARE = 0.25
 """… and over this part of the face's size."""
 _LARGEST_CENTRES = 500
 _SLIDING = 0.03
-"""How much a face's displacement within itself counts beside that along its normal; decides where normals are alike."""
+"""Weight of a face's displacement within itself relative to that along its normal: it decides where the normals are
+nearly parallel."""
 AT_VERTICES = 1e-7
 """In the vertices faces meet to OCCT's own precision (mm): readers of STEP mend what is farther apart."""
 _TEARING_GAP = 1e-8
@@ -99,7 +100,7 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
 
 
 def _disagreement(sides: Mapping[int, Side], agreed: Array) -> Array:
-    """Largest distance in mm by which a face would have pulled the compromise elsewhere, (n,)."""
+    """Largest distance in mm between the compromise and where one face alone would have put it, (n,)."""
     matrix = np.zeros((len(agreed), 3, 3))
     for side in sides.values():
         np.add.at(matrix, side.rows, _directional_weight(side.normals))
@@ -177,7 +178,7 @@ def _compromise(place: NDArray[np.intp], own: Array, normals: Array, count: int)
 
 
 def _directional_weight(normals: Array) -> Array:
-    """What weight a face's displacement has in each direction: nnᵀ + s, (n, 3, 3)."""
+    """Weight of a face's displacement in each direction: nnᵀ + s, (n, 3, 3)."""
     return normals[:, :, None] * normals[:, None, :] + _SLIDING * np.eye(3)
 
 

@@ -24,7 +24,7 @@ _HORIZON = 1.6
 """A sample's share fades to nothing at this multiple of its reach."""
 _BLOCK_VALUES = 60_000
 _DENSE_SAMPLES = 400
-"""Up to so many samples all distances are cheaper than a search for the near ones."""
+"""With at most this many samples, computing all distances is faster than searching for the near ones."""
 
 
 _STEP_KNOT = 0.5 - np.sqrt(0.125)

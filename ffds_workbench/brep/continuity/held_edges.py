@@ -15,7 +15,7 @@ from .edge_samples import EdgeSamples, along_edge, join_samples
 from .radial_basis import RadialField
 
 _ROOM_FACTOR = 5.0
-"""An edge may stay if it is farther from the edited faces than so many times the displacement there."""
+"""An edge may stay if it is farther from the edited faces than this many times the displacement there."""
 _TAPER_SHARES = 0.05, 0.5
 """Where a frozen face touches an edited one, the displacement fades over five times itself, but between these parts of
 the edited face's size."""

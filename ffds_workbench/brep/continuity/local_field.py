@@ -39,14 +39,15 @@ _DISPUTED_SHARE = 0.3
 _FIDELITY_INSIDE = 0.02
 """The same inside an edited face, over the largest displacement: there it only serves what lies behind the face."""
 _INSIDE_CORRECTION_SHARE = 0.2
-"""There, corrections of the edited faces count as far as this part of them."""
+"""Inside, corrections need only be met to within this share of the largest one."""
 _SAME_AS_FIELD = 2e-5
 """What counts as equal to the field, in mm. An edited face gets a correction where it is not, …"""
 _RIM_WIDTHS = 0.08, 5.0
-"""… and where that fails, passes into it in a rim that is so much of the face's size wide, and at least so many times
-the distance."""
+"""… and where that fails, it passes into the field within a rim. The rim is as wide as the first number times the
+face's size, and at least the second number times the distance."""
 _SUPPORT_SIZES = 0.6, 5.0
-"""Support of the field: so much of the largest edited face's size plus so many times the largest displacement."""
+"""Support of the radial functions: the first number times the size of the largest edited face, plus the second number
+times the largest displacement."""
 _LINES_PER_SUPPORT = 4.0
 
 

@@ -26,8 +26,8 @@ SMALLEST_SINGULAR_VALUE = 1e-6
 _LEAST_COVERAGE = 0.1
 _FINEST_LATTICE = 10
 _LARGEST_OVERSHOOT, _FIRM_OVERSHOOT = 4.0, 2.5
-"""Ratio of control point to source point displacement above which a lattice counts as undetermined, and the one up to
-which it is taken unasked; a cubic through a full grid stays below 2, or a little above where most of it is noise."""
+"""Ratio of control point to source point displacement above which a lattice counts as undetermined, and up to which the
+automatic choice takes it. A cubic through a full grid stays below 2, or a little above where most of it is noise."""
 
 
 class UndeterminedError(RefusedError):

@@ -26,7 +26,7 @@ from .scan_coverage import covered_share
 _LEAST_POINTS, _LEAST_FITTED = 30, 20
 _RASTER_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
-"""Where more than a tenth of the layers are walls, up to so many points are asked which way they face."""
+"""Where more than the first share of the layers are walls, normals are computed for at most this many points."""
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,

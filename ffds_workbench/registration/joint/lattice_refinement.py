@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Finer lattices where the data ask for them: where what is left in the cells is more than the noise explains."""
+"""Finer lattices where the data ask for them: where the residuals of the cells are larger than the noise explains."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -63,7 +63,7 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:
-    """As many places within the bounds: Greville abscissae of an unclamped lattice lie outside them."""
+    """Interpolation sites within the bounds: some Greville abscissae of an unclamped lattice lie outside."""
     return np.unique(np.clip(np.concatenate([places, np.linspace(*bounds, len(places))]), *bounds))
 
 

@@ -18,15 +18,15 @@ from .state import State
 from .surfaces import normals
 
 _EXPECTED = PriorTrust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0, sliding=60.0)
-"""Shapes that a scan tells of a part for each prior, some of them half or less of what traces of the covariance say:
-deformations are smooth, so that a few large shapes pay what many small ones would."""
+"""Number of independent shapes that a scan determines against each prior. Some are half or less of what traces of the
+covariance say: deformations are smooth, so that a few large shapes cost as much as many small ones would."""
 _WON_BACK = ("isometry", "shear", "dihedral")
 _EXPECTED_CONTROLS = 1000.0
-"""Parts with more control points than this have more of them."""
+"""The expected numbers grow in proportion with the control points above this number."""
 _LEAST_TRUST = PriorTrust(isometry=1e-5, thickness=1e-2, shear=1e-5, dihedral=1e-5, sliding=0.1)
 """A sheet bends, stretches and even shears far more easily than it changes its thickness."""
 _LEAST_TRUST_MASSIVE = 0.1
-"""The same of the thickness of massive parts: nothing but their other side tells where an unseen one is."""
+"""Least trust in the thickness of massive parts, of which only the opposite side says where an unseen one lies."""
 _ISOMETRY_OFF = 1e-6
 _ISOMETRIC_TRUST = 0.1
 """A part counts as isometric while its isometry is trusted by more than this."""

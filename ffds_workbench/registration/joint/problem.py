@@ -28,7 +28,8 @@ _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
 _SAME_NORMAL = 0.02
-"""Change of a normal up to which it does for the thickness, of which it changes one in five thousand."""
+"""The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
+thousand."""
 _WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
 
@@ -80,7 +81,8 @@ class Problem:
     sample_normals: Array | None = None
 
     def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
-        """Rows of the thickness along the normals that the sheets have with these control points, or hardly differ."""
+        """Rows of the thickness along the sheets' current normals; those that are ``known`` if the normals hardly
+        differ."""
         normal = self.couplings.sheet_normals(control_points)
         if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
             return known

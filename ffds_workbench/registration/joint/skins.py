@@ -25,33 +25,37 @@ from .surfaces import normals
 from .uncertainty import prior_cost
 
 _TOO_THICK = 3.0
-"""Sheets thicker than this many times the expected displacement are not taken for their far side."""
+"""In a sheet thicker than this many times the expected displacement, the two sides cannot be confused."""
 _CLOSER = 0.85
-"""A piece has a side where its points lie closer to the part by this factor than with the other side."""
+"""A sign is chosen for a piece if its points then lie closer to the part, by this factor, than with the other sign."""
 _LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
-"""Likewise for the count of points that find nothing on the part, each raised by that share of all."""
+"""Also if fewer points, by the first factor, find no counterpart on the part. Both counts are first raised by the
+second number times the size of the piece."""
 _LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
 _DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
-"""A piece with this share of the sketch and less difference than this factor between its sides is tried both ways."""
+"""Both signs are tried where the distances differ by less than the first factor and the piece holds more than the
+second share of the points."""
 _COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
-"""A fit that costs less than the other one by this factor is right; a point that it leaves out costs what it would
-three standard deviations away."""
+"""The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
+standard deviations away, 3² in chi-square units."""
 _WALL_POINTS, _WALL_RATIO = 50, 3
-"""The skin is seen whose fit has so many more scan points than this many times the other's on the walls beside it, …"""
+"""Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
+times the other fit's, plus the first."""
 _MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
-"""… or moved less by the first factor. Above it the nearer one is taken with bands as wide as the sheet is thick, up to
-the second one. Where the scan's normals tell the one that moved more, it is taken down to the first factor, with bands
-as wide from the second one on."""
+"""Else the fit that moved less is right if its movement is below the first factor times the other's. Between the first
+and the second factor it is chosen as well, with bands as wide as the sheet is thick. A fit that the scan's normals
+favour is kept unless the other moved less by the first factor, with such wide bands if it moved less by the second."""
 _AGREEMENT = 0.5
-"""Mean of the signs within a smooth piece from which they are trusted."""
+"""Mean of the signs within a smooth piece above which they are trusted."""
 _MUCH_CLOSER = 0.5
-"""A piece that lies closer to the part by this factor than with the other side tells it even against its normals."""
+"""A piece that lies closer to the part by this factor is believed even against the scan's normals."""
 _NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
-"""Mean cosine within a smooth piece between the scan's normals and the piece's own from which the scan's are trusted;
-the share of the scan on such pieces without which none are; and the one on which the points may contradict them before
-both are tried."""
+"""The scan's normals are trusted on a smooth piece if their mean cosine with its own normals is above the first number,
+and at all only if such pieces hold the second share of the scan. Both sides are tried if the points contradict the
+normals on more than the third share."""
 _NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
-"""Neighbours that are tried, cosine of their normals, and sine of the step over their planes on a smooth surface."""
+"""Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
+and the sine of the step out of their planes is below the third."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
@@ -91,7 +95,7 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
 
 
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
-    """The right one of two fits of a sheet, to either of its skins; a single fit as it is.
+    """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
     Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
     did not move far more.
@@ -125,8 +129,8 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
 
 
 def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
-    """Cost in chi-square units, points of the sample that are matched, scan points on faces that are no skin, and mean
-    movement of all matched ones along the normals in mm."""
+    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
+    scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     found = correspond(problem.scan, frames, 4 * problem.lengths.start)
@@ -139,7 +143,8 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
 
 
 def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tuple[list[Array], Array]:
-    """+1, −1 or (not told) 0 for every piece of the sketch, from what it finds on the nominal part: (pieces,).
+    """Sign of every piece of the sketch, from what it finds on the nominal part: +1, −1, or 0 where it is undecided:
+    (pieces,).
 
     With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
     Where a large piece is in doubt, its other sign comes second, with those of all others that are in doubt. What is
@@ -166,7 +171,7 @@ def _clearly_less(first: NDArray[np.number], second: NDArray[np.number], factor:
 
 
 def _one_sign_each(pieces: tuple[Index, Array], signs: Array, agreed: float = _AGREEMENT) -> Array:
-    """The signs (n,) of most points of every smooth piece for all of it: 0 where they contradict each other.
+    """One sign for each smooth piece, that of most of its points, 0 where they contradict each other: (n,).
 
     Signs carried around the edge of a thin sheet may go astray; across a smooth surface they do not.
     """
@@ -185,7 +190,7 @@ def _cosines(sketch: SkinPoints, nearest: Index, given: Array) -> Array:
 
 
 def _signs_of_scan_normals(pieces: tuple[Index, Array], cosine: Array, sure: Array) -> Array:
-    """Signs (n,) that the scan's normals give to the sketch's, 0 where they tell nothing.
+    """Signs (n,) that the scan's normals give to the sketch's, 0 where they do not decide.
 
     They point out of the material, or all into it: then the sides that are ``sure`` (n,) from the points contradict
     them. Where these contradict a part of them, or neighbours do each other, nobody knows what they mean.

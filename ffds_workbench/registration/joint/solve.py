@@ -32,17 +32,17 @@ from .uncertainty import misfit
 
 Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
-"""Where the shape lies off all of the scan, a stage goes on while the trust in isometry falls by more than this factor:
-shapes follow it slowly."""
+"""While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
+times the last one: shapes follow it slowly."""
 _NO_MORE_STIFF_STAGES = 0.05
-"""A stage that ends with a step smaller than this in mm leaves nothing to do for the other stiff ones."""
+"""If a stiff stage ends with a step smaller than this in mm, the remaining stiff stages are skipped."""
 _MATCHES_LAST = 0.1
-"""Movement in mm after which points keep their cells: a small share of a cell."""
+"""After a step smaller than this in mm, points keep their cells: it is a small share of a cell."""
 _STRAIN_LASTS = 0.5
-"""Movement in mm over which the directions of strain are taken as they were: by a small share of a span no face turns
-so far that the steps would go astray."""
+"""The strain matrices are kept until the shape has moved by this in mm: by a small share of a span no face turns so far
+that the steps would go astray."""
 _FACTOR_LASTS = 0.03
-"""A matrix with this share of the bending is too far from one with all of it to be solved with that one's factor."""
+"""A factor is not used for a matrix with less than this share of its bending weight."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -91,7 +91,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 
 
 def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
-    """The stiff stages, of which some can be left out; fits that are ``compared`` all end with the last one."""
+    """The stiff stages, some of which may be skipped; fits that are ``compared`` all end with the last one."""
     stiff = [stage for stage in steps if not stage.soft]
     for stage in stiff:
         if state.last_step > _NO_MORE_STIFF_STAGES or (compared and stage is stiff[-1]):
@@ -100,7 +100,7 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
 
 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage; a sheet that complies without any stretch has not stretched."""
+    """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):
@@ -110,7 +110,7 @@ def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
 
 def run_stage(problem: Problem, stage: Stage, state: State,
               promising: Callable[[State], bool] = lambda state: True) -> State:
-    """Gauss-Newton steps of one stage, while it is ``promising``, until they are small against what it can tell."""
+    """Gauss-Newton steps of one stage, while it is ``promising``, until they are smaller than what it can resolve."""
     if stage.body and not body_informs(problem, state.trust):
         return state
     cache = state.cache

@@ -70,7 +70,7 @@ class State:
 
 
 def fresh_cache(problem: Problem, control_points: Array) -> StepCache:
-    """What a first step on a shape uses."""
+    """The cache for a first step on a shape."""
     return StepCache(strain_blocks(problem, control_points), problem.thickness_rows(control_points))
 
 

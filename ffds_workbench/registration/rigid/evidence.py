@@ -18,13 +18,15 @@ from .model import Target
 
 _NORMALS_AGREE = 0.6
 _HIDING_NOISE = 0.003
-"""Noise above this share of the part's size hides sides and small features."""
+"""Noise above this share of the part's size hides which side of a sheet is seen, and small features."""
 _CAMERAS, _NEIGHBOURS = 3, 4
-"""Cameras; and points near a sample of which one has to face as it does: the nearest may be of a sheet's far side."""
+"""Number of cameras that are inferred; and number of points near a sample, one of which has to face as the sample does:
+the nearest may lie on the far side of a sheet."""
 _DEFORMATION_PENALTY = 6.0
-"""What a deformation by the part's size takes off the score: 4 % that bend another part into this one take off 0.24."""
+"""Penalty on the score per deformation relative to the part's size: bending another part into this one by 4 % costs
+0.24."""
 _DEFORMATION_REACH = 0.06
-"""Reach of the smooth deformation that is allowed for, as a share of the part's size."""
+"""How far the smooth deformation may reach, as a share of the part's size."""
 
 
 @dataclass(frozen=True)

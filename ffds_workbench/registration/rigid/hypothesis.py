@@ -17,20 +17,22 @@ from .polish import is_deformed
 from .refine import refine
 
 _ON_PART = 0.008
-"""Distance, as a share of the part's size, from which a point may lie on the part with its normal turned round."""
+"""A normal is flipped if the point is farther from the part than this share of its size as it is, and nearer with the
+normal flipped."""
 MOST_STRAY_NORMALS = 0.15
-"""Share of the normals that may be turned round one by one."""
+"""Largest share of the normals that may be flipped one by one."""
 SCORE_MARGIN = 0.06
-"""Poses whose scores differ by less than this share of what is left unexplained fit alike."""
+"""Two poses fit equally well if their scores differ by less than this share of what the better one leaves
+unexplained."""
 SAME_TURN, SAME_SHIFT = 0.07, 0.03
 """Poses closer than this (rad, share of the part's size) are one."""
 _PROMISING_MARGIN = 0.1
-"""A pose that scores worse by more on few points will not on many turn out to be the best."""
+"""A pose whose score on few points is lower than the best by more than this cannot be the best on many points."""
 _SETTLED_TURN, _SETTLED_SHIFT = 0.01, 0.005
-"""Poses closer than this (rad, share of the part's size) have settled in the same place."""
+"""Poses closer than this (rad, share of the part's size) have converged to the same place."""
 _NEARER_BY = 0.005
-"""Share of the part's size by which one of two poses has to be nearer to count as the nearer one: less than a sheet is
-thick."""
+"""A pose counts as nearer than another if it is nearer by this share of the part's size, which is less than the
+thickness of a sheet."""
 
 
 @dataclass(frozen=True)

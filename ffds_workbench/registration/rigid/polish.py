@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The last word on a pose: thousands of points, the scan's ends along the rims, and what a deformed part asks for."""
+"""The final refinement of a pose: on thousands of points and on the scan's ends along the rims, of a rigid part or of a
+deformed one."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -20,38 +21,40 @@ from .refine import ScanEnds, find_scan_ends, gauss_newton, points_near_rims, re
 from .search import nearest_field
 
 _WIDE_GATE, _DEFORMED_HEIGHT = 0.12, 0.002
-"""Shares of the part's size: within which a point has its face, and that a fifth lie off a part that is deformed."""
+"""As shares of the part's size: the gate within which points are matched with faces, and the height that a fifth of the
+points exceed where the part is deformed."""
 _FAR_TURN = 0.07
-"""Turn in rad from which the pose of a deformed part is looked for once more: what began so far off was matched
-with wrong places."""
+"""If the pose of a deformed part turns by more than this (rad), it is computed once more, because the first matches
+were made too far off."""
 _FIRST_POINTS, _DEFORMED_POINTS = 500, 1_000
-"""Points that a pose is brought nearer with, and about how many one of a deformed part."""
+"""Number of points for the first steps, and about how many for those of a deformed part."""
 _ROUGH_POINTS, _HEIGHT_POINTS, _END_POINTS = 2_500, 3_500, 60_000
-"""Points for the pose of a rough scan; of a part that is not deformed, for heights, and for the ends."""
+"""Number of points for the pose of a noisy scan; of a rigid part, for the heights and for the scan's ends."""
 _END_REACHES, _ON_FACE_SIGMAS = (0.01, 0.005), 3.0
-"""How far off the ends of the scan may lie, as a share of the part's size, and height up to which a point is on a face,
-in standard deviations of the noise."""
+"""How far from the rim the scan may end, as shares of the part's size, one for each round; and the height, in standard
+deviations of the noise, up to which a point lies on a face."""
 _END_WEIGHT = 0.25
-"""What an end counts against a point on a face: it may lie outside the rim where a wall below it is seen askew."""
+"""Weight of an end of the scan relative to a point on a face: it may lie outside the rim where the wall below is seen
+at a slant."""
 _FREE_LEVER = 1e-4
-"""Mean square lever arm, in halves of the part's size, below which a freedom counts as free."""
+"""Mean square lever arm, in halves of the part's size, below which nothing holds a degree of freedom."""
 _PATCH_SAMPLES = 60
-"""Of the even samples, some 2,500, so many are the surface around a point: a sixth of the part across."""
+"""Number of even samples, of about 2,500, that make the surface around a point: it is a sixth of the part wide."""
 _RIGID_GATE = 0.02
-"""Gate for a part that is not deformed, as a share of its size."""
+"""Gate for a rigid part, as a share of its size."""
 _ONE_FACE_SIGMAS = 3.0
-"""In standard deviations of the noise: the height over a second face below which nobody can tell which face a point is
-on."""
+"""A point belongs to one face if its height over every other one is more than this many standard deviations of the
+noise."""
 _LEAST_NOISE = 5e-4
-"""Least noise that is reckoned with, as a share of the part's size."""
+"""Lower bound of the noise, as a share of the part's size."""
 _CUTOFF_SIGMAS = 4.0
 _STEPS_PER_ROUND, _SETTLED_STEP = 4, 1e-5
-"""Steps of a round, and the share of the part's size below which one ends it."""
+"""Steps per round; and the step, as a share of the part's size, below which a round ends."""
 _CANDIDATE_SAMPLES = 3
 
 
 def polish(target: Target, sketch: Sketch, pose: Array, normals: Array) -> Array:
-    """The pose on thousands of points.
+    """Refines a pose on thousands of points.
 
     A part that is not deformed lies on its faces, and ends at its rims. Of a deformed one the pose is wanted that fits
     all of it best, not where it deformed least: wide gates, and each point against the side that it shows. Where the
@@ -72,7 +75,8 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array) -> Array
 
 def polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array,
                     deformation: DisplacementField | None = None) -> tuple[Array, DisplacementField]:
-    """The pose that fits all of a deformed part best, and the deformation that is left then; from one, if it is known.
+    """The pose that fits the whole of a deformed part best, and the deformation that remains; started from
+    ``deformation`` if one is known.
 
     A pose that turns far began at a wrong place, as did the matches: then once more.
     """
@@ -117,7 +121,7 @@ def polish_rigid(target: Target, sketch: Sketch, pose: Array) -> Array:
 
 
 def _informative_points(target: Target, points: Array, count: int) -> NDArray[np.intp]:
-    """Indices of at most ``count`` points, the more the more the surface around them tells of the pose.
+    """Indices of at most ``count`` points, drawn more densely where the surface around them constrains the pose more.
 
     Its leverage in the least squares says that: small faces at the ends of a part hold directions that the large ones
     leave free, and of points drawn evenly hardly any lie on them. The mean over a patch much wider than the noise is
@@ -141,7 +145,7 @@ def _informative_points(target: Target, points: Array, count: int) -> NDArray[np
 
 @kept_with_target
 def _neighbourhoods(target: Target) -> NDArray[np.intp]:
-    """The even samples around each of them; (m, k)."""
+    """Indices of the even samples around each even sample; (m, k)."""
     points = target.even.points
     return np.asarray(cKDTree(points).query(points, k=min(_PATCH_SAMPLES, len(points)))[1]).reshape(len(points), -1)
 

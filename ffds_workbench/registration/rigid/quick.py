@@ -24,20 +24,24 @@ from .verdict import LEAST_CERTAINTY, alignment_of
 
 _LEAST_POINTS = 50
 _START_TURNS, _LARGEST_START_TURN = 12, 0.5
-"""Turns that are tried, and the largest in rad: from there a search finds those of 30° and a little more."""
+"""Number of turns to start from, and the largest in rad: from these the search finds poses turned by somewhat more than
+30°."""
 _POOL_SIZE, _SKETCH_POINTS, _MATCH_STRIDE = 24_000, 1_500, 3
-"""Points of the scan that are looked at; those that tell sides; and every which of them is matched."""
+"""Number of scan points that are used, of points that the sides are found on, and the stride of those that are
+matched."""
 _BESIDE_PART = 0.75
-"""A point farther than this share of the part's size from the centroid of the scan is beside the part."""
+"""A scan point farther than this share of the part's size from the scan's centroid cannot lie on the part: there may be
+a table."""
 _FACE_GATE, _REFINE_STEPS = 0.08, 5
-"""Distance, as a share of the part's size, within which a point has its face, and steps towards it."""
+"""Gate as a share of the part's size, and number of steps."""
 _STIFF_ROUNDS, _SOFT_ROUNDS = STIFF_DEFORMATION_ROUNDS[:2], SOFT_DEFORMATION_ROUNDS[2:4]
-"""Rounds of the deformations that tell the sides: the second one follows where the first one does not tell."""
+"""Rounds of the deformation by which the two sides are compared: the second ones follow where the first ones do not
+decide."""
 _LEAST_EXPLAINED = 0.90
-"""Share of explained points from which a quick answer is taken: of a sheet matched with its far side up to 0.95 is
-explained, but more of one matched with the right one."""
+"""Share of explained points from which a quick answer is accepted. Of a sheet matched with its far side up to 0.95 is
+explained, but more of a sheet matched with the right one."""
 _MISFIT_RATIO = 0.65
-"""Misfit of the right side over that of the other one, where a smooth deformation is taken back."""
+"""A side is clearly better if its misfit, after a smooth deformation, is below this factor times the other side's."""
 
 
 def align_quickly(target: Target, scan: Array, scale: float, generator: np.random.Generator) -> Alignment | None:
@@ -71,7 +75,7 @@ class _Side:
 
 
 def _refined_side(target: Target, sketch: Sketch, pose: Array, signs: Array) -> _Side:
-    """The pose after a few steps towards the side that the signs tell."""
+    """The pose after a few steps towards the side that the signs say."""
     normals = outward_normals(sketch, signs)
     pose = refine(target.coarse, sketch.points[::2], pose, (_FACE_GATE * target.size,), _REFINE_STEPS, normals[::2])
     return _Side(pose, signs, normals @ pose[:3, :3].T)
@@ -79,7 +83,7 @@ def _refined_side(target: Target, sketch: Sketch, pose: Array, signs: Array) -> 
 
 def _align_undeformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
                       ) -> Alignment | None:
-    """The answer of a pose at which the scan lies on the part as it is."""
+    """The alignment, if the scan lies on the part without any deformation."""
     clear: list[Hypothesis] = []
     for side in sides:
         if is_deformed(target.coarse, sketch, side.pose, side.normals):
@@ -100,7 +104,7 @@ def _align_undeformed(target: Target, sketch: Sketch, table: Plane | None, sides
 
 def _align_deformed(target: Target, sketch: Sketch, table: Plane | None, sides: Sequence[_Side], scale: float,
                     whole: Sketch) -> Alignment | None:
-    """The answer of a pose at which the scan lies on the part after a smooth deformation, and of no other.
+    """The alignment, if the scan lies on the part after a smooth deformation, and clearly on one side of it.
 
     ``whole`` is the sketch before it was thinned: all of its points count for the pose.
     """
@@ -127,7 +131,7 @@ def _align_deformed(target: Target, sketch: Sketch, table: Plane | None, sides: 
 def _clearly_better(target: Target, sketch: Sketch, sides: Sequence[_Side],
                     fits: Sequence[tuple[Match, DisplacementField]],
                     ) -> int | None:
-    """The number of the side that the scan fits clearly better."""
+    """Number of the side that the scan fits clearly better; None if neither."""
     misfits = [misfit_of(target.coarse, sketch, side.normals, found)
                for side, (found, _) in zip(sides, fits, strict=True)]
     better = int(np.argmin(misfits))

@@ -20,11 +20,11 @@ _MOMENT_TOLERANCE = 0.04
 _TRIED_ANGLES = 72
 _PROBE_POINTS = 1200
 _HALF_TURN_TOLERANCE = 0.01
-"""Difference in rad from a half turn, which is one about the opposite axis too."""
+"""A turn this close to a half turn, in rad, is one about the opposite axis as well."""
 _NEARLY_SAME = 0.02
-"""Mean distance, as a share of the part's size, up to which the turned part nearly is the same."""
+"""Mean distance from the part, as a share of its size, up to which the turned part is nearly the same."""
 _EXACTLY_SAME = 0.004
-"""Distance, as a share of the part's size, within which all of the turned part lies if it is the same."""
+"""Largest distance from the part, as a share of its size, of the turned part if it is the same."""
 
 
 @dataclass(frozen=True)

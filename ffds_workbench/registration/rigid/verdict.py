@@ -18,11 +18,11 @@ from .symmetry import Symmetry, symmetry_of
 from .unit_guess import unit_name
 
 _FITNESS_POINTS = 1_000
-"""Points for the fitness."""
+"""Number of points that the fitness is computed on."""
 LEAST_CERTAINTY = 0.79
-"""Certainty below which a pose is no answer: the ten scans of other parts in the benchmark reach 0.72, and of 45 of
-deformed other parts one 0.788; those of the part itself 0.80 where it is deformed by 5 mm, 0.85 with 20 % stray points.
-"""
+"""A pose with less certainty is rejected. In the benchmark, ten scans of other parts reach 0.72, and one of 45 scans of
+deformed other parts 0.788; scans of the part itself have at least 0.80 where it is deformed by 5 mm, and 0.85 with 20 %
+stray points."""
 _LEAST_COVERAGE = 0.12
 _FITNESS_REACH = 0.02
 """Distance within which a point counts as on the part, as a share of the part's size."""

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...scan.cloud import FARTHEST
 from ..programs.conventions import from_kuka_angles, kuka_angles
 from .attach import Motion
 
@@ -70,7 +71,7 @@ class TaughtCsv:
         for name in set(_OF_THE_NOMINAL) & set(self.names):
             column = self.names.index(name)
             for row in cells:
-                row[column] = ""
+                row[column : column + 1] = [""] * (column < len(row))
         stream = io.StringIO()
         writer = csv.writer(stream, delimiter=self.delimiter, lineterminator="\n")
         writer.writerows(([self.header] if self.header else []) + cells)
@@ -93,7 +94,7 @@ class TaughtCsv:
                                for row in self.rows])
         except (ValueError, IndexError) as error:
             raise InputError(f"The path has a row without numbers for {', '.join(group)}.") from error
-        if not np.isfinite(values).all():
+        if not (np.abs(values) < FARTHEST).all():
             raise InputError(f"The path has a row without finite numbers for {', '.join(group)}.")
         return values
 
@@ -115,7 +116,10 @@ def read_csv(text: str) -> TaughtCsv:
     if not lines:
         raise InputError("The path is empty.")
     delimiter = max(";\t,", key=lambda mark: (mark in lines[0], -";\t,".index(mark)))
-    rows = [tuple(cell.strip() for cell in row) for row in csv.reader(lines, delimiter=delimiter)]
+    try:
+        rows = [tuple(cell.strip() for cell in row) for row in csv.reader(lines, delimiter=delimiter)]
+    except csv.Error as error:
+        raise InputError("The path is damaged: it has a cell that does not end.") from error
     decimal = "," if delimiter != "," and any("," in cell for row in rows[1:] for cell in row) else "."
     words = [cell for cell in rows[0] if any(map(str.isalpha, cell)) and not _is_number(cell, decimal)]
     header = rows[0] if words else None

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...scan.cloud import FARTHEST
 from ..programs.conventions import from_kuka_angles, kuka_angles
 from ..programs.moves import numbers
 from .attach import Motion
@@ -78,7 +79,14 @@ def _poses_of(file: int, text: str) -> list[_Pose]:
         missing = [key for key in "XYZ" if key not in values]
         partly = 0 < len(values.keys() & set("ABC")) < 3
         if missing or partly:
-            line = text.count("\n", 0, match.start()) + 1
-            raise InputError(f"Line {line} of the program gives a part of a pose only, {match[0]}: write it in full.")
+            shown = " ".join(match[0].split())[:80]
+            raise InputError(f"{_line(text, match)} gives a part of a pose only, {shown}: write it in full.")
+        if not all(abs(value) < FARTHEST for value in values.values()):
+            raise InputError(f"{_line(text, match)} has a pose without finite numbers.")
         poses.append(_Pose(file, match.start(), match.end(), values))
     return poses
+
+
+def _line(text: str, match: re.Match[str]) -> str:
+    """Where a match is, in words."""
+    return f"Line {text.count(chr(10), 0, match.start()) + 1} of the program"

@@ -17,7 +17,7 @@ from ...uv_raster import Raster
 
 _MOST_KEPT = 150_000
 _DRAWN = 2
-"""So many times as many scan points as the sample shall have are looked at first."""
+"""The sample is drawn from this many times as many scan points."""
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ _START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
 _SHEET_WINDOW = 4.0
 """Layers this close (mm) to a start may be two skins of one sheet, and the outermost is taken."""
 _FARTHER_PENALTY = 0.3
-"""What a start at the end of the reach must explain more than one at the nominal, as a share."""
+"""How much more, as a share, a start at the end of the reach has to explain than a start at the nominal face."""
 _EXPECTED_TILT = 0.1
 
 

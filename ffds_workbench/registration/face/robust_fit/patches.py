@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Patches of layers that hang together: the face itself, and islands that must prove that they belong to it.
+"""Patches of connected layers: the face itself, and islands that are checked for belonging to it.
 
 A patch of another sheet just below the face looks like the face where the face is hidden. It is not joined to the
 visible face by a continuous surface, and it lies off where that surface leads.
@@ -22,7 +22,8 @@ _LARGEST_SLOPE = 0.2
 _NOISE_FACTOR = 2.0
 _MAIN_PATCH_SHARE = 0.1
 _SPARSE_LAYER = 0.25
-"""Layers with less than this share of the usual number of points join nothing: outliers between two sheets would."""
+"""Layers with less than this share of the usual number of points are joined to none: outliers between two sheets would
+join these."""
 _MOST_LAYERS = 4
 
 
@@ -71,7 +72,7 @@ def main_patches(label: Index, weights: Array) -> NDArray[np.bool_]:
 
 def proven(raster: Raster, layers: Layers, label: Index, trusted: NDArray[np.bool_], residual: Array, gate: float,
            curvature: float) -> NDArray[np.bool_]:
-    """The trusted layers, and those of patches that lie where the surface fitted to the trusted ones leads.
+    """The trusted layers, and those of patches that lie on the surface fitted to the trusted ones.
 
     Parameters
     ----------

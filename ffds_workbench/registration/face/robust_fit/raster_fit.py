@@ -33,8 +33,8 @@ _STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
 """A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
 0.2 standard deviations of the surface, or three of its own."""
 _BENDING_SHARE, _EVEN_SHARE, _LONGEST_LENGTH = 0.1, 0.6, 20.0
-"""Price of all bending and of uneven bending, as shares of what bending cost before; and the longest length in mm over
-which curvature is expected to change."""
+"""Weights of all bending and of uneven bending, as shares of the weight that bending had before; and the longest length
+in mm over which curvature is expected to change."""
 _LARGEST_NOISE_GROWTH = 1.5
 """A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
 _STEEPEST = 0.5
@@ -106,7 +106,7 @@ class RasterFit:
         self.products_v = offset_products(self.basis_v[0], self.basis_v[0])
 
     def allow_even_bending(self, state: FitState) -> None:
-        """From here on a plane may bend, as long as it bends evenly: what its curvature changes by costs instead.
+        """From here on a plane may bend evenly: the change of its curvature is penalised instead of the curvature.
 
         Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
         closely, and leads on as it bends where nothing is seen. The length over which curvature may change is that of
@@ -192,7 +192,7 @@ class RasterFit:
         return _Graph(shift_x, shift_y, height, slope_x, slope_y, normal, cosine, usable & (cosine > _STEEPEST))
 
     def _agreeing(self, graph: _Graph, rim: SurfaceCoordinates, noise: float, gate: float) -> SurfaceCoordinates:
-        """The points of the blocks of the rim in which hardly anything else than the face is seen."""
+        """The points in those blocks of the rim in which hardly anything but the face is seen."""
         cell, residual = self._residuals(graph, rim)
         rows, columns = (count // _RIM_BLOCK + 1 for count in self.raster.shape)
         i, j = np.divmod(cell, self.raster.shape[1])
@@ -206,7 +206,7 @@ class RasterFit:
 
     def _parts(self, graph: _Graph, data: FacePoints | SurfaceCoordinates | Layers, noise: float, gate: float
                ) -> Iterator[tuple[SurfaceCoordinates | Layers, int]]:
-        """The data piece by piece, and every which of them shall be asked for the noise."""
+        """The data piece by piece, and the stride of those that the noise is measured on."""
         if isinstance(data, FacePoints):
             every, rim = max(1, data.count // self.settings.sample), []
             for inner, near_trims in data.pieces():

@@ -23,25 +23,26 @@ from .kriging import FieldModel, Observations, Pose, condition, most_likely_mode
 _PATCHES_PER_SIDE = 4
 """Patches per direction of a span whose heights are averaged: small against what the field changes over."""
 _LARGEST_SYSTEM = 1500
-"""Patches that are taken, at random: a matrix of as many rows is factorised."""
+"""Number of random patches: a dense matrix of this size is factorised."""
 _LEAST_PATCH_WEIGHT = 0.1
 """Patches with less than this of the usual weight are left out."""
 _BORDER_STRIDE = 3
-"""One border row of so many: they stand close, and what is wrong of them is wrong of their neighbours too."""
+"""Only one border row in this many is used: neighbours are close and share their errors."""
 _POSE_PLACES = 200
-"""Places whose pose stays as the solve has it: turns that nothing shows are not to follow what is left of errors."""
+"""Number of places whose mean pose stays as the solve has it: a turn that nothing observes must not follow residual
+errors."""
 _STEPS_TO_SETTLE = 2
-"""Steps with all points after which the field is settled."""
+"""Number of steps after which the field is no longer renewed."""
 _SHEET_SHARE = 0.2
-"""Of the weight of a span's row on sheets: their thickness and lengths tell more than a smooth field does, whose errors
-at neighbouring spans are nearly the same."""
+"""Share of its weight that a row gets on a sheet: there, thickness and lengths say more than a smooth field, whose
+errors at neighbouring spans are nearly the same."""
 _NEGLIGIBLE_SHARE = 0.01
-"""Of the weight of a row, what can be left out."""
+"""Share of a row's weight that is negligible."""
 
 
 @dataclass(frozen=True)
 class BodyRows:
-    """Where the body has the middles of spans: Σ B d = displacement, as precisely as it says.
+    """Where the body field puts the middles of spans: Σ B d = displacement, with its precision.
 
     Attributes
     ----------
@@ -64,7 +65,7 @@ class BodyRows:
 
 
 def body_informs(problem: Problem, trust: PriorTrust) -> bool:
-    """Whether the body tells anything that counts: of sheets that keep all lengths it does not."""
+    """Whether the body's rows have any weight: those of sheets that keep all lengths have none."""
     return bool((_weight_share(_is_sheet(problem, problem.part.solid_of_face), trust) > _NEGLIGIBLE_SHARE).any())
 
 
@@ -99,7 +100,7 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
 
 def add_body_rows(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,
                   trust: PriorTrust) -> None:
-    """Add the rows of the body at the current shape; of sheets as far as they are not isometric."""
+    """Add the rows of the body at the current shape; sheets count as far as they are not isometric."""
     precision = _weight_share(rows.sheet, trust)[:, None, None] * rows.precision
     products = rows.basis[:, :, None] * rows.basis[:, None, :]
     for a, b in COMPONENTS:
@@ -115,7 +116,7 @@ def _is_sheet(problem: Problem, solid: Index) -> NDArray[np.bool_]:
 
 
 def _weight_share(sheet: NDArray[np.bool_], trust: PriorTrust) -> Array:
-    """Of the weight of rows (n,), those of a ``sheet`` or others."""
+    """Share of their weight that rows (n,) get, those of a ``sheet`` or others."""
     return np.where(sheet, _SHEET_SHARE * (1 - trust.isometry), 1.0)
 
 

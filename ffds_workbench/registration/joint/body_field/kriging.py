@@ -23,7 +23,7 @@ _TRIED_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 _LEAST_VARIANCE = 1e-12
 """Variance in mm² of a part that has not moved at all."""
 _LIKELIHOOD_SAMPLE = 400
-"""Observations that the likelihood is computed from."""
+"""Number of observations that the likelihood is computed from."""
 
 _LOT = 512
 """Places that are looked at together."""
@@ -31,7 +31,7 @@ _LOT = 512
 
 @dataclass(frozen=True)
 class Observations:
-    """What is known of the field: direction · f(place) = value, give or take √variance.
+    """What is known of the field: direction · f(place) = value, with a standard deviation of √variance.
 
     Attributes
     ----------

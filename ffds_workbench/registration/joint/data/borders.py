@@ -19,16 +19,16 @@ from ..surfaces import FacePlaces, concatenate
 
 _SEARCH_REACH = 4.0
 _LARGEST_OFFSET = 2.0
-"""Scan points belong to the nearest edge sample within the reach; farther (mm) than that no edge is believed."""
+"""Scan points belong to the nearest edge sample within the first distance (mm); a border farther from its edge than the
+second one is ignored."""
 _POINTS_LAST = 0.2
-"""Movement in mm of the edges after which points keep their samples, which are farther apart."""
+"""Points keep their edge samples until the edges have moved by this in mm; the samples are farther apart."""
 _BORDERS_LAST = 0.03
-"""Movement in mm of the edges that changes nothing of where their borders are found."""
+"""Borders are kept until the edges have moved by this in mm."""
 _SHARP_COSINE = 0.7
 _LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
-"""The edge lies beyond the outermost point by what one point takes of the density, as for points at random. Where more
-than one lies within this part of the noise, which carries points over the edge, it is the second or the third one that
-counts."""
+"""The edge lies beyond the outermost point by the spacing of one point, as for randomly placed points. Noise carries
+points over the edge: where more than one lies within this part of the noise, the second or third outermost is used."""
 _DENSITY_BAND = (0.5, 2.0)
 """Distance inside the outermost points, in mm, between which the density is counted."""
 _LEAST_BAND_POINTS = 12
@@ -36,7 +36,8 @@ _SEEN_BEYOND_SHARE = 0.15
 _LEAST_UNCERTAINTY = 0.05
 """Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
 _USUAL_LOSS = 0.3
-"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this weighs less."""
+"""Sensors lose points at edges and never see any beyond them: an end farther inside than this, in mm, gets less
+weight."""
 _HUBER_SIGMAS = 2.0
 _DISCARD_HUBERS = 3.0
 _EDGE_NEIGHBOURS = 4

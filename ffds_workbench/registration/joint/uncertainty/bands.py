@@ -11,13 +11,13 @@ from ..surfaces import FacePlaces
 
 TWO_SIDED = 1.96
 _UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 2.0
-"""The same where the shape rests on priors alone, from that many mm off what was observed: bends gather somewhere, so
-that the shape strays as Student's t with two degrees of freedom does."""
+"""The 95 % quantile where the shape rests on priors alone, and from how many mm beside the observed area. Bends gather
+in places, so that errors are distributed as Student's t with two degrees of freedom."""
 _NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 2.0
-"""Standard deviation, in those of the noise, that points of the next face cost at a border, and how far in mm it
-reaches into the face."""
+"""Standard deviation, relative to the noise's, of the error that points of the neighbouring face cause at a border; and
+how far it reaches into the face, in mm."""
 _EDGE_MISFIT = 0.045
-"""Standard deviation in mm of the place of an edge beyond what its faces' covariance tells."""
+"""Standard deviation in mm of the place of an edge, beyond what the covariance of its faces explains."""
 
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:

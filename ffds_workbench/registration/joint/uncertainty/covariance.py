@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The covariance of the control points, with priors that are as wide as the scan shows them to have to be."""
+"""The covariance of the control points, with priors widened as far as the scan shows to be necessary."""
 from __future__ import annotations
 
 import numpy as np
@@ -14,7 +14,7 @@ from ..state import State
 from ..surfaces import normals
 
 _PRIORS_WIDE_ENOUGH = 1.2
-"""Ratio up to which the priors of the solve are as wide as they should be."""
+"""Priors are widened if their cost exceeds the effective degrees of freedom by more than this factor."""
 _HUTCHINSON_PROBES = 16
 
 
@@ -45,8 +45,8 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontChole
 
 
 def _effective_dof(problem: Problem, factor: FrontCholesky, prior: Array) -> float:
-    """How many shapes the scan tells: the trace of 1 − A⁻¹ P with the factor of A, from random signs (Hutchinson,
-    Communications in Statistics 18, 1989), to about 2 %."""
+    """Effective degrees of freedom that the scan determines: the trace of 1 − A⁻¹ P with the factor of A, estimated
+    from random signs (Hutchinson, Communications in Statistics 18, 1989) to about 2 %."""
     unknowns = 3 * problem.lattices.count
     signs = np.random.default_rng(problem.settings.seed).choice([-1.0, 1.0], (unknowns, _HUTCHINSON_PROBES))
     carried = factor.solve_many(problem.pattern.matrix(prior) @ signs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the scan shows of the lattices' own errors: heights that are left, neighbours with the same sign, beyond noise.
+"""The lattices' own errors: residual heights of the scan that have the same sign among neighbours and exceed the noise.
 
 Where priors hold a face off the scan, or its lattice cannot follow, the covariance knows nothing of it.
 """

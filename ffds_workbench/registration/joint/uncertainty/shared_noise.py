@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the noise that neighbouring points share does to the result: the lattices follow it as they follow shape.
+"""The effect of noise that neighbouring points share: the lattices follow it as they follow shape.
 
 The result is linear in the heights of the scan, so that fields drawn from the sensor's profile, put through the last
 normal equations, stray as the result does.

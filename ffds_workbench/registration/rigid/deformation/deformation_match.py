@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A smooth deformation of the part that a scan of the right part is allowed beyond its rigid pose."""
+"""The smooth deformation that a scan of the right part may show beyond its rigid pose."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -19,15 +19,15 @@ _ROUND_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
 NO_DEFORMATION_ROUNDS = ()
 STIFF_DEFORMATION_ROUNDS = tuple((gate, 2) for gate in _ROUND_GATES)
 SOFT_DEFORMATION_ROUNDS = (*STIFF_DEFORMATION_ROUNDS[:2], *((gate, LARGEST_DEGREE) for gate in _ROUND_GATES[2:]))
-"""Rounds of a fit: gates as shares of the part's size, and degrees of the deformation. None at all; those that tell the
-part from another one; and those that follow a deformed part."""
+"""Rounds of a fit, each a gate as a share of the part's size and a degree of the deformation: none at all, those that
+distinguish the part from another one, and those that follow a deformed part."""
 _LEAST_POINTS = 60
-"""Points from which a deformation is fitted."""
+"""Number of points from which a deformation is fitted."""
 
 
 @dataclass(frozen=True)
 class Match:
-    """Points of the scan matched with the part after a smooth deformation is taken back.
+    """Points of the scan matched with the part after a smooth deformation has been removed from them.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Match:
     normal: Array
 
     def heights(self, points: Array, gate: float) -> DisplacementObservations | None:
-        """What the heights want of the deformation, where the points (n, 3) lie with it; None of too few points.
+        """The displacements that the heights ask for, with the points (n, 3) as scanned; None if too few are matched.
 
         Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
         """
@@ -57,14 +57,14 @@ class Match:
 
 
 def match_undeformed(target: Target, points: Array, normals: Array, reach: float) -> Match:
-    """Points and outward normals (n, 3), without the deformation and in model coordinates, matched with the part."""
+    """Match points with outward normals (n, 3), in model coordinates and without the deformation, with the part."""
     distance, nearest = target.nearest(points, normals, reach)
     return Match(points, distance, nearest, *target.heights(points, nearest))
 
 
 def match_deformed(target: Target, points: Array, normals: Array, reach: float, rounds: Rounds,
                    start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
-    """Match points with the part; each round takes back a smooth displacement fitted to the last one's heights.
+    """Match points with the part; each round removes a smooth displacement fitted to the heights of the round before.
 
     Parameters
     ----------

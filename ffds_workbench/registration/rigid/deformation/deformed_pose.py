@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pose that fits all of a deformed part best: each place of it against where it lies without the deformation."""
+"""The pose that fits the whole of a deformed part best: in the least squares between each place and its undeformed
+place."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -17,15 +18,16 @@ from .deformation_match import match_undeformed
 from .displacement_field import LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement
 
 _LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (LARGEST_DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
-"""Degree of the deformation in each look at the scan, and its rounds: every which point counts, least cut-off of the
-heights' weights, and how far off the ends of the scan may lie, as shares of the part's size."""
+"""The scan is looked at twice, with this degree of the deformation and these rounds: stride of the points, lower bound
+of the cut-off for heights, and largest distance of the scan's ends, both as shares of the part's size."""
 _ON_FACE_SIGMAS, _COARSE_HEIGHT = 3.0, 0.01
-"""Height up to which a point near a rim is on its face, in standard deviations of what the deformation leaves; and at
-least in the first round of a look, as a share of the part's size."""
+"""Height up to which a point near a rim lies on its face: in standard deviations of the remaining heights, and in the
+first round at least this share of the part's size."""
 _END_WEIGHT = 4.0
-"""What an end counts beyond its own uncertainty, as heights are off by what the polynomials cannot follow."""
+"""Weight of the scan's ends relative to their own uncertainty; heights also carry what the polynomials cannot
+follow."""
 _CELL_COUNT = 600
-"""Pieces of the part's surface that its pose is the best fit of."""
+"""Number of pieces of the part's surface that the pose is fitted to."""
 
 
 def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
@@ -67,7 +69,7 @@ class _Scan:
 
 def _fit_look(target: Target, scan: _Scan, reach: float, deformation: DisplacementField,
               rounds: Sequence[tuple[int, float, float]]) -> DisplacementField:
-    """The likeliest deformation from where the scan lies and ends, coarse to fine."""
+    """The most likely deformation, given where the scan lies and where it ends, coarse to fine."""
     size, rims = target.size, target.rims
     straight = deformation.straightened(scan.points, deformation.straightened(scan.points, scan.points))
     near = deformation.straightened(scan.pool, scan.pool)
@@ -89,14 +91,14 @@ def _fit_look(target: Target, scan: _Scan, reach: float, deformation: Displaceme
 
 
 def _hidden_stretches(rims: Rims, points: Array, normals: Array) -> NDArray[np.bool_]:
-    """Which stretches of rim are of the side of a sheet that the scan does not show; (m,)."""
+    """Which stretches of rim belong to the side of a sheet that the scan does not show; (m,)."""
     nearest = cKDTree(points, balanced_tree=False, compact_nodes=False).query(rims.middles)[1]
     return np.einsum("ni,ni->n", normals[nearest], rims.faces) < 0.0
 
 
 def _end_observations(ends: ScanEnds, deformation: DisplacementField, spread: float,
                       cutoff: float) -> DisplacementObservations | None:
-    """What the ends want of the deformation; None if there are none."""
+    """The displacements that the scan's ends ask for; None if there are none."""
     if not len(ends.gap):
         return None
     moved = np.einsum("ni,ni->n", deformation(ends.places), ends.outwards)

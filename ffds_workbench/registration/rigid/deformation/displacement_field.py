@@ -20,32 +20,34 @@ from ...robust_weights import MAD_TO_SIGMA, quantile, tukey
 from ..model import SurfaceSamples, Target, kept_with_target
 
 LARGEST_DEGREE = 4
-"""Of the polynomials."""
+"""Largest degree of the polynomials."""
 _CORRELATION_LENGTH, _AMPLITUDE = 0.6, 0.01
-"""ℓ in halves of the part's size, and s as a share of the size."""
+"""The prior's correlation length ℓ in halves of the part's size, and its standard deviation s as a share of the
+size."""
 _NEGLIGIBLE_MONOMIAL = 0.02
-"""Monomials that move nothing of the part by this share of s are left out: powers across a sheet."""
+"""A monomial that moves no point of the part by more than this share of s is left out, as powers across a sheet are."""
 _STRAIN_POINTS = 75
-"""Places of the surface whose strain counts, about."""
+"""About how many places on the surface the strain is evaluated at."""
 _SURFACE_STRAIN = (0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))
 _THICKNESS_STRAIN = (2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0))
-"""Components of the strain along the surface and through it, in frames of two tangents and the normal, with the root of
-how often each stands in the tensor."""
+"""Components (i, j) of the strain tensor within the surface and through it, in a frame of two tangents and the normal.
+The third number is the square root of how often the component occurs in the symmetric tensor."""
 _STRAIN_COST = 0.5
-"""A strain of 1 costs as much as so many mm of height, at as many points."""
+"""Height in mm that costs as much as a strain of 1, where both are taken at equally many points."""
 _STRAIN_HEIGHTS, _LEAST_STRAIN_COST, _LARGEST_STRAIN_COST = 150.0, 0.1, 5.0
-"""Where the surface stretches, it costs less, as far as all strains count as this many heights; and its limits."""
+"""Along a surface that visibly stretches, strain is made so cheap that all of it together costs as much as this many
+heights; the second and third numbers bound its cost."""
 _BOX_MARGIN = 0.1
-"""The displacement goes on as it is at this distance, in halves of the part's size, from the box of the part."""
+"""Farther from the part's box than this, in halves of its size, the displacement is constant."""
 _CUTOFF_SIGMAS = 4.0
 """Cut-off of Tukey's weights in standard deviations."""
 _LEAST_SPREAD = 1e-6
-"""Least spread of points that is reckoned with, as a share of the part's size."""
+"""Lower bound of the points' spread, as a share of the part's size."""
 
 
 @dataclass(frozen=True, eq=False)
 class DisplacementBasis:
-    """The displacements of a part that are reckoned with.
+    """Basis of the smooth displacements of a part: monomials of low degree.
 
     Attributes
     ----------

@@ -16,12 +16,13 @@ from ...trims import inside_polylines
 
 _POINTS_PER_FACE = 1500
 _GRID_VOXELS, _NEAR_RIM = 80, 0.08
-"""Of the grid that tells which points lie near rims, along the part; and what is near, as a share of its length."""
+"""Number of voxels along the part in the grid that finds nearby rims, and the distance that is near, as a share of its
+length."""
 _SHEET_NEIGHBOURS, _OPPOSITE_COSINE = 64, 0.7
-"""Points in which one on the other side of a sheet is looked for, and the cosine from which directions are the same.
-"""
+"""Neighbours among which the point on the other side of a sheet is looked for, and the cosine from which directions
+agree."""
 _STRETCH_POINTS = 8
-"""Points of a stretch of rim, half the spacing of the part's samples apart."""
+"""Number of points in a stretch of rim; they are half the spacing of the part's samples apart."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,10 @@ from ...robust_weights import quantile, tukey
 from ..model import Target
 
 _SCALE_QUANTILE, _CUTOFF_FACTOR = 0.85, 4.0
-"""Cut-off of the weights: so many times the residual that most points stay below. Noise and deformation count nearly in
-full, as the best fit of a deformed part wants it; what lies apart does not."""
+"""The cut-off of the weights is the second number times this quantile of the residuals. So noise and deformation count
+nearly in full, as they should in the best fit of a deformed part, and outliers do not."""
 _SETTLED_STEP = 3e-5
-"""A step below this share of the part's size ends a stage."""
+"""A stage ends with a step smaller than this share of the part's size."""
 _MATCHES_LAST = 0.25
 """Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""
 
@@ -83,7 +83,7 @@ def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], gate: flo
 
 
 def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: float) -> Array:
-    """Twist (6,) about the target's centre that takes the heights to zero in the least squares.
+    """Twist (6,) about the target's centre that brings the heights to zero in the least-squares sense.
 
     A prior of 1e-6 of the points' weight keeps directions that nothing observes at rest; a turn counts as the shift
     it makes at half the part's size.

@@ -14,21 +14,23 @@ from ..model import Rims
 _DENSITY_BAND = (1.0, 5.0)
 """How far inside the outermost point of a stretch of rim the scan's density is counted, in steps of the rims."""
 _LEAST_BAND_POINTS = 5
-"""Points in that band from which a stretch of rim says something."""
+"""Number of points in that band from which a stretch of rim is used."""
 _LARGEST_RANK, _WITHIN_NOISE = 4, 0.4
-"""Points at random end 1/density beyond the outermost one, or k/density beyond the k-th. The second to fourth one
-counts where more than one lies within this part of the noise, which carries points over the rim."""
+"""The end of randomly placed points lies 1/density beyond the outermost one, or k/density beyond the k-th one. Noise
+carries points over the rim: where more than one lies within this part of the noise, the second to the fourth outermost
+point is used."""
 _WALL_STEPS, _WALL_SHARE = 2.0, 0.05
-"""Steps around the end, and below the face, in which a wall at the rim would be seen, and points of it, against those
-on the face in a mm, beside one that may be stray: from there on it is the wall that holds the scan."""
+"""A wall at the rim would be seen within this many steps of the end and below the face. A stretch is left out if there
+are more points of a wall than one stray point plus this share of the face's points per mm: then the wall itself holds
+the scan."""
 _STRETCH_NEIGHBOURS, _LEAST_TELLING, _ODD_SIGMAS = 2, 3, 2.0
-"""Stretches to either side of one, how many of them all have to tell, and how far in standard deviations of its
-uncertainty one may lie from their median: a stray point or a hole makes a stretch of its own."""
+"""Stretches on either side that one is compared with; how many of all these have to be usable; and how far, in its
+standard deviations, it may lie from their median. A stray point or a hole shows in a single stretch."""
 _LEAST_UNCERTAINTY = 0.05
 """Uncertainty in mm of a rim, even in a dense scan: mixed pixels, rounded edges."""
 _USUAL_LOSS = 0.3
-"""Sensors lose points at edges and never see any beyond: a scan that ends farther inside than this, in mm, weighs less.
-"""
+"""Sensors lose points at edges and never see any beyond them: an end farther inside the rim than this, in mm, gets less
+weight."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,8 @@ class ScanEnds:
 
 def points_near_rims(rims: Rims, points: Array, reach: float, hidden: NDArray[np.bool_] | None = None,
                      ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Which of points (n, 3), in model coordinates, lie beside which of the rims: near enough to tell ends within a
-    reach.
+    """Which of the points (n, 3), in model coordinates, lie near which rims: near enough to show where the scan ends
+    within a reach.
 
     Parameters
     ----------
@@ -87,7 +89,7 @@ def points_near_rims(rims: Rims, points: Array, reach: float, hidden: NDArray[np
 
 def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: float, noise: float,
                    tolerance: float) -> ScanEnds:
-    """Where the outermost points on the faces lie, and what their density lets expect beyond.
+    """Where the scan ends: at the outermost points on the faces, plus what their density lets one expect beyond.
 
     Parameters
     ----------
@@ -127,7 +129,7 @@ def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: fl
 
 
 def _agrees_with_neighbours(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int) -> NDArray[np.bool_]:
-    """Whether the gap of a stretch is about that of its neighbours along the rim, and enough of them tell."""
+    """Whether a stretch has about the same gap as its neighbours along the rim, and enough of these have one."""
     gaps = np.full(count + 2 * _STRETCH_NEIGHBOURS, np.nan)
     gaps[stretch + _STRETCH_NEIGHBOURS] = gap
     around = np.sort(np.lib.stride_tricks.sliding_window_view(gaps, 2 * _STRETCH_NEIGHBOURS + 1)[stretch], axis=1)

@@ -17,7 +17,8 @@ from ..model import Target, kept_with_target
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 _SAME_SIDE_COSINE = 0.35
 _TABLE_VOXELS, _TABLE_MARGIN = 40, 0.2
-"""Voxels of the look-up table along its longest side, and share of the part's size that it reaches beyond the part."""
+"""Number of voxels of the look-up table along its longest side, and its margin around the part as a share of the part's
+size."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from ..model import Target
 from .candidates import Candidates, Probe, distinct, improve, nearest_field, scores
 
 _MAJOR_PIECE = 0.1
-"""Share of the points from which a piece of surface has a sign of its own in the search."""
+"""A connected piece with at least this share of the points has a sign of its own in the search."""
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,11 @@ from ...scan_sketch import Sketch
 from ..model import Target
 
 _AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
-"""How far, in rad and as a share of the part's size, the surroundings of the best pose are searched once more."""
+"""Number of turns, their largest in rad, and the shift as a share of the part's size, of the second search around the
+best pose."""
 _GLOBAL_ROTATIONS = 500
 _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
-"""Turns from the present pose that a fine alignment looks at, and the largest in rad."""
+"""Number of turns from the present pose that mode "fine" starts from, and the largest in rad."""
 
 
 def starts_of(target: Target, sketch: Sketch, mode: str) -> Array:

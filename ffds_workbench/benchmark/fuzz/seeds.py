@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...registration.splines import Array
+from ...registration.arrays import Array
+
+if TYPE_CHECKING:
+    import Part
 
 POINTS = 50
 _PAGE, _CHECKSUM, _E57_HEADER = 1024, 4, 48
@@ -139,3 +143,34 @@ def e57(points: Array, old: str = "", new: str = "") -> bytes:
 def _physical(logical: int) -> int:
     """Where a place of an E57 file is once every page has its checksum."""
     return logical + _CHECKSUM * (logical // (_PAGE - _CHECKSUM))
+
+
+def paths() -> Mapping[str, list[bytes]]:
+    """By suffix, taught paths over the upper face of `plate`."""
+    places = [(10.0 + 8.0 * i, 50.0 + 3.0 * np.sin(i), 0.0) for i in range(10)]
+    krl = ["&ACCESS RVP", "DEF Teach( )", "$BASE={X 1,Y 2,Z 3,A 0,B 0,C 0}", "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}",
+           *(f"LIN {{X {x:.3f}, Y {y:.3f}, Z {z:.3f}, A 10, B 0, C 180, E1 5.0}} C_DIS ; taught" for x, y, z in places),
+           "LIN_REL {X 5,Y 0,Z 0}", "END", ""]
+    columns = "s,x,y,z,tx,ty,tz,qx,qy,qz,qw,gap,band,flag,note"
+    seam = [f"{8 * i},{x:.4f},{y:.4f},{z:.4f},1,0,0,0,1,0,0,0.1,,observed,a" for i, (x, y, z) in enumerate(places)]
+    angles = [f"{x:.3f};{y:.3f};{z:.3f};10;0;180".replace(".", ",") for x, y, z in places]
+    return {".src": ["\r\n".join(krl).encode("latin-1")],
+            ".csv": ["\n".join([columns, *seam]).encode(), "\n".join(["X;Y;Z;A;B;C", *angles]).encode(),
+                     "\n".join(f"{x}\t{y}\t{z}" for x, y, z in places).encode()]}
+
+
+def measured() -> Array:
+    """A scan of the upper face of `plate` with a bump of 1 mm, and its normals, (n, 6)."""
+    random = np.random.default_rng(2)
+    x, y = random.uniform(1.0, 99.0, (2, 4000))
+    height = np.exp(-((x - 30.0) ** 2 + (y - 30.0) ** 2) / 800.0)
+    up = np.tile([0.0, 0.0, 1.0], (len(x), 1))
+    return np.hstack([np.stack([x, y, height + random.normal(0.0, 0.05, len(x))], axis=1), up])
+
+
+def plate() -> Part.Shape:
+    """A part that the scans and the paths lie on: 100 × 100 × 8 mm, its upper face at z = 0."""
+    import FreeCAD
+    import Part
+
+    return Part.makeBox(100.0, 100.0, 8.0, FreeCAD.Vector(0.0, 0.0, -8.0))
