@@ -86,7 +86,7 @@ def _register(folder: Path, scratch: Path, sensor: SensorProfile | None) -> dict
     except FfdsError as error:
         return {"refused": str(error)}
     row: dict[str, Any] = {"seconds": time.perf_counter() - start, "certificate": result.certificate.problems()}
-    own = _own_truth(result, truth)
+    own = judge_by_truth(result, truth)
     return row | (_independent(folder, out) or own.pop("judged")) | own["bands"]
 
 
@@ -106,7 +106,7 @@ def _independent(folder: Path, out: Path) -> dict[str, Any] | None:
             "tolerance": health["max_tolerance"], "topology": not found["flags"]}
 
 
-def _own_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]:
+def judge_by_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]:
     """Figures from the truth's points and the as-built faces, and how many points the bands hold."""
     part = workpiece.read(result.nominal.shape)
     visible, deviation, band, flag = [], [], [], []
