@@ -115,7 +115,7 @@ def run_stage(problem: Problem, stage: Stage, state: State,
         return state
     cache = state.cache
     if stage.all_points and not stage.body:
-        cache = replace(cache, nearest=None, factor=None)
+        cache = replace(cache, nearest=None, factor_bending=np.inf)
     if stage.soft:
         cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
                         body=None)
@@ -149,12 +149,12 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
         add_borders(equations, problem, state.control_points, cache.borders)
     if cache.body is not None:
         add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
-    near = cache.factor if stage.bending > _FACTOR_LASTS * cache.factor_bending else None
-    step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, near)
+    near = stage.bending > _FACTOR_LASTS * cache.factor_bending
+    step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, cache.factor, near)
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
-                    factor_bending=stage.bending if factor is not near else cache.factor_bending)
+                    factor_bending=cache.factor_bending if factor is cache.factor else stage.bending)
     return replace(state, control_points=state.control_points + step, values=values,
                    last_step=last_step, iterations=state.iterations + 1, cache=cache)
 
