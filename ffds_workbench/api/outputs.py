@@ -13,6 +13,7 @@ from ..output import replacing
 from ..report import record
 from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
+from ..report.file_certificate import FileCertificate, certify_file
 from ..scan.cloud import PointCloud
 from .destinations import destinations
 from .deviating import Deviation
@@ -20,11 +21,11 @@ from .registering import Result
 
 
 def write(result: Result, out: str | Path, report: str | Path | None = None, picture: str | Path | None = None,
-          inputs: Sequence[str | Path] = ()) -> None:
+          inputs: Sequence[str | Path] = ()) -> FileCertificate:
     """Write an as-built model (.step, .brep or .FCStd), and after it its report and picture: both of these or none.
 
-    The model waits for nothing; the deviation is measured after it, and the report waits for the check for Boolean
-    operations.
+    The model is read back and certified before it replaces an earlier file, and waits for nothing else; the deviation
+    is measured after it, and the report waits for the check for Boolean operations.
 
     Raises
     ------
@@ -34,7 +35,8 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     model_file.check_output(Path(out))
     outputs = destinations((out, report, picture), inputs)
     with replacing(outputs.pop(0)) as temporary:
-        model_file.write(result.model, temporary[0])
+        back = model_file.write(result.model, temporary[0])
+        certificate = certify_file(result.nominal.shape, result.unchecked.before, back)
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if picture is not None:
@@ -42,7 +44,9 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
                       drawing.Panel("As built", _all(result.deviations[1]), _edges(result.shape))]
             _draw(target[2], result.nominal, result.scan, result.deviations[0], panels)
         if report is not None:
-            record.write(result.report, target[1])
+            topology = result.report["topology"] | {"written": certificate.as_dict()}
+            record.write(result.report | {"topology": topology}, target[1])
+    return certificate
 
 
 def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,

@@ -77,11 +77,11 @@ class Result:
 
     @cached_property
     def deviations(self) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
-        """Of the same scan points from the nominal and from the as-built faces."""
+        """From the nominal and from the as-built faces: of the whole part, or of those that were named."""
         with self.watch.stage("bands", "Finding the 95 % bands"):
-            deformed = list(self.found.faces)
+            faces = self.found.faces if self.joint is None else range(len(self.part.faces))
         with self.watch.stage("deviation", "Measuring the deviation"):
-            return compare(self.part, self.shape, deformed, self.scan.points)
+            return compare(self.part, self.shape, list(faces), self.scan.points)
 
     @cached_property
     def unchecked(self) -> Certificate:

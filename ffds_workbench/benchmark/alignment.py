@@ -101,7 +101,7 @@ def run(folder: Path, progress: Callable[[str], None], starts: int = 20) -> str:
             for seed in range(starts):
                 trial = some[seed % len(some)]
                 progress(f"Aligning: {trial.part}, {condition}, {mode}, start {seed + 1} of {starts}")
-                tries.append(_try(trial, mode, seed))
+                tries.append(one_start(trial, mode, seed))
             row = _summary(tries)
             data[f"{condition}, {mode}"] = row
             asked = f"at most {_ALLOWED[condition]}" if condition in _ALLOWED else "0"
@@ -218,7 +218,7 @@ def random_start(scan: Array, mode: str, rng: np.random.Generator) -> Array:
     return motion(rotation, middle - rotation @ middle + 50.0 * direction)
 
 
-def _try(trial: Trial, mode: str, seed: int) -> Try:
+def one_start(trial: Trial, mode: str, seed: int) -> Try:
     """One alignment from a random start; of poses that fit alike the one nearest to the truth."""
     moved = random_start(trial.scan, mode, np.random.default_rng(seed))
     scan = apply(moved, trial.scan)
@@ -266,17 +266,22 @@ def _deformations(progress: Callable[[str], None]) -> tuple[Table, dict[str, Any
         tries = []
         for family in _FAMILIES:
             progress(f"Aligning: {family}, {warp}")
-            case = make_case(family, warp, _OTHER_SEED, amplitude=5.0)
-            target, seconds = _sampled(case.target.faces)
-            scan = _resampled(case.scan.points, np.random.default_rng(1))
-            trial = Trial(family, warp, target, scan, _best_pose(case), seconds)
-            tries += [_try(trial, "fine", seed) for seed in range(2)]
+            trial = deformed(family, warp, _OTHER_SEED)
+            tries += [one_start(trial, "fine", seed) for seed in range(2)]
         row = _summary(tries)
         data[warp] = row
         rows.append([warp, f"{row['failures']} of {len(tries)}", f"{row['median_mm']:.3f}", f"{row['worst_mm']:.3f}",
                      f"{row['worst_deg']:.2f}"])
     caption = "Fine, of other parts, deformed by 5 mm in other ways as well"
     return Table(caption, ("deformation", "failures", "median mm", "worst mm", "worst °"), rows), data
+
+
+def deformed(family: str, warp: str, seed: int) -> Trial:
+    """A part of a family that was deformed by 5 mm, and the pose that fits it best."""
+    case = make_case(family, warp, seed, amplitude=5.0)
+    target, seconds = _sampled(case.target.faces)
+    scan = _resampled(case.scan.points, np.random.default_rng(1))
+    return Trial(family, warp, target, scan, _best_pose(case), seconds)
 
 
 def _other_parts(trials: list[Trial], progress: Callable[[str], None]) -> tuple[Table, dict[str, str]]:

@@ -59,7 +59,7 @@ def _measure(part: workpiece.Workpiece, model: api.Model, points: Array, names: 
             result = api.register(model, points[~held], names)
         except api.RefusedError as refusal:
             return {"face": label, "refused": str(refusal)}
-        moved = [part.index(item.name) for item in result.registrations]
+        moved = [part.index(name) for name in names] if names else list(range(len(part.faces)))
         fitted += compare(part, result.shape, moved, points[~held])[1]
         nominal, built = compare(part, result.shape, moved, points[held])
         before, after = [*before, *nominal], [*after, *built]

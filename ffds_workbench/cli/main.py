@@ -134,8 +134,9 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     request = read_request(options)
     result = api.run(request, *read_inputs(options, progress), progress)
     progress(f"Writing {options.out}")
-    api.write(result, options.out, options.report, options.picture, inputs)
-    return "\n\n".join([result.table(), _written(options.out, options.report, options.picture)])
+    written = api.write(result, options.out, options.report, options.picture, inputs)
+    read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
+    return "\n\n".join([result.table(), read_back, _written(options.out, options.report, options.picture)])
 
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:

@@ -84,7 +84,7 @@ class SurfaceCoordinates:
             yield self.part(slice(first, first + _CHUNK))
 
     def part(self, rows: Index | slice) -> SurfaceCoordinates:
-        """Those in the given rows."""
+        """Those in the given ``rows``, (k,) indices or a slice."""
         return SurfaceCoordinates(self.index[rows], self.x[rows], self.y[rows], self.height[rows], self.shape)
 
 
@@ -93,6 +93,7 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
 
     Parameters
     ----------
+    raster : of the face
     points : (n, 3) in mm
     reach : largest |height| in mm
     margin : if given, foot points off the trimmed face or nearer than this (mm) to a trim are left out
@@ -117,19 +118,20 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
 
 
 def joined(parts: Sequence[SurfaceCoordinates], raster: Raster) -> SurfaceCoordinates:
-    """Several sets of foot points as one."""
+    """All foot points of several ``parts`` on one ``raster``."""
     index = np.concatenate([part.index for part in parts] or [np.zeros(0, dtype=np.intp)])
     x, y, height = (np.concatenate([getattr(part, name) for part in parts] or [np.zeros(0)]) for name in _COLUMNS[1:])
     return SurfaceCoordinates(index, x, y, height, raster.shape)
 
 
 def make_locator(raster: Raster, reach: float) -> Locator:
-    """What finds the foot points on this face, of points within ``reach`` mm."""
+    """What finds the foot points on the face of a ``raster``, of points within ``reach`` mm."""
     return _flat_locator(raster) if raster.flat else _curved_locator(raster, reach)
 
 
 def located(raster: Raster, points: Array, reach: float, locate: Locator) -> Iterator[SurfaceCoordinates]:
-    """The scan points within reach and over the parameter range, piece by piece; ``locate`` from `make_locator`."""
+    """The scan points, of ``points`` (n, 3) in mm, within reach and over the parameter range of the ``raster``, piece
+    by piece; ``locate`` from `make_locator`."""
     for first in range(0, len(points), _CHUNK):
         index, x, y, height, valid = locate(points[first : first + _CHUNK].T)
         valid &= np.abs(height) <= reach
@@ -211,8 +213,10 @@ def newton_in_cells(raster: Raster, points: Array, cell: Index, steps: int = 2) 
 
     Parameters
     ----------
+    raster : of the face
     points : (3, n) in mm
     cell : (n,) the cell to start from
+    steps : of Newton's method
 
     Returns
     -------

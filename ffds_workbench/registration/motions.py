@@ -12,7 +12,7 @@ _ALONG_AXIS_COSINE, _TURNED_ANGLE = 0.9998, 0.02
 
 
 def motion(rotation: Array, translation: Array) -> Array:
-    """4×4 matrices from (…, 3, 3) rotations and (…, 3) translations."""
+    """Matrices (…, 4, 4) from a ``rotation`` (…, 3, 3) and a ``translation`` (…, 3) in mm."""
     result = np.zeros((*np.shape(translation)[:-1], 4, 4))
     result[..., :3, :3] = rotation
     result[..., :3, 3] = translation
@@ -21,12 +21,12 @@ def motion(rotation: Array, translation: Array) -> Array:
 
 
 def apply(pose: Array, points: Array) -> Array:
-    """Points (n, 3) moved by one pose (4, 4) → (n, 3), or by many (k, 4, 4) → (k, n, 3)."""
+    """``points`` (n, 3) moved by one ``pose`` (4, 4) → (n, 3), or by many (k, 4, 4) → (k, n, 3)."""
     return points @ np.swapaxes(pose[..., :3, :3], -1, -2) + pose[..., None, :3, 3]
 
 
 def best_fit(points: Array, goals: Array, weights: Array | None = None) -> Array:
-    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares, weighted by (n,)."""
+    """Motion (4, 4) that brings points onto the goals (n, 3) best in the least squares, with ``weights`` (n,)."""
     middle, goal = np.average(points, axis=0, weights=weights), np.average(goals, axis=0, weights=weights)
     rotation = Rotation.align_vectors(goals - goal, points - middle, weights=weights)[0].as_matrix()
     return motion(rotation, goal - rotation @ middle)
@@ -47,7 +47,7 @@ def twist_motion(twists: Array, centre: Array) -> Array:
 
 
 def twist_rows(arm: Array, direction: Array) -> Array:
-    """How far points move along directions (…, 3) by each of the six parts of a twist: (…, 6).
+    """How far points move along each ``direction`` (…, 3) by each of the six parts of a twist: (…, 6).
 
     Parameters
     ----------
@@ -92,7 +92,8 @@ def even_directions(count: int) -> Array:
 
 
 def axis_name(axis: Array) -> str:
-    """What a unit vector (3,) is called: x, y or z, with a sign, where it is one of them, else its components."""
+    """What an ``axis``, a unit vector (3,), is called: x, y or z, with a sign, where it is one of them, else its
+    components."""
     largest = int(np.argmax(np.abs(axis)))
     if abs(axis[largest]) > _ALONG_AXIS_COSINE:
         return ("−" if axis[largest] < 0 else "") + "xyz"[largest]
@@ -100,7 +101,8 @@ def axis_name(axis: Array) -> str:
 
 
 def turn_name(turn: Array, near: float) -> str:
-    """A rotation vector (3,) in rad, not zero, in words; within ``near`` of a half turn the axis has no sign."""
+    """A ``turn``, a rotation vector (3,) in rad and not zero, in words; within ``near`` of a half turn the axis has
+    no sign."""
     size = float(np.linalg.norm(turn))
     half = np.pi - size < near       # a half turn about an axis is one about its opposite too
     axis = turn / size * (np.sign(turn[np.argmax(np.abs(turn))]) if half else 1.0)
@@ -108,7 +110,7 @@ def turn_name(turn: Array, near: float) -> str:
 
 
 def describe_difference(first: Array, second: Array, place: Array) -> str:
-    """How the second pose (4, 4) differs from the first, in words.
+    """How the ``second`` pose (4, 4) differs from the ``first`` (4, 4), in words.
 
     Parameters
     ----------

@@ -6,5 +6,5 @@ from .arrays import Array
 
 
 def workers(points: Array) -> int:
-    """Number of threads for a nearest-neighbour search for these points: all (−1) if there are many."""
+    """Threads that a search for so many ``points`` (n, 3) is worth."""
     return -1 if len(points) > 1000 else 1

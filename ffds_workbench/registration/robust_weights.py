@@ -18,13 +18,13 @@ TUKEY_SIGMAS = 4.685
 
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:
-    """Tukey's biweight (1 − (r/c)²)², zero beyond the cut-off c."""
+    """Tukey's biweight (1 − (r/c)²)² of each ``residual`` r, zero beyond the ``cutoff`` c in the same unit; (n,)."""
     share = np.minimum(np.square(residual / cutoff), 1.0)
     return np.square(1 - share)
 
 
 def robust_sigma(residual: Array) -> float:
-    """Standard deviation of residuals about zero, from the median of their absolute values."""
+    """Standard deviation of each ``residual`` (n,) about zero, from the median of their absolute values."""
     return MAD_TO_SIGMA * float(np.median(np.abs(residual)))
 
 

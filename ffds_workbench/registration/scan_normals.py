@@ -24,5 +24,6 @@ def scan_normals(points: Array) -> Array:
 
 
 def faces_alike(raster: Raster, points: SurfaceCoordinates, normals: Array) -> NDArray[np.bool_]:
-    """Whether the scan's normals, (k, 3) at the given points, are those of the face below them; (k,)."""
+    """Whether the scan's normals, (k, 3) at the given points, are those of the face below them on
+    its ``raster``; (k,)."""
     return np.asarray(np.abs(dot(raster.normal[points.in_cell[0]], normals)) > _ALIKE_COSINE)

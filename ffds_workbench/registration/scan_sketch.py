@@ -63,7 +63,7 @@ class Sketch:
         return float(np.median(cKDTree(self.points).query(self.points[:_MEDIAN_POINTS], k=2)[0][:, 1]))
 
     def every(self, step: int) -> Sketch:
-        """The same with every ``step``-th point."""
+        """The same of fewer points, one of every ``step``."""
         return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
 
 
@@ -83,6 +83,7 @@ class Plane:
     tolerance: float
 
     def heights(self, points: Array) -> Array:
+        """Signed distances of points (n, 3) from the plane, (n,) in mm."""
         return points @ self.normal - self.offset
 
 
@@ -115,7 +116,7 @@ def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_C
 
 
 def thin(points: Array, count: int) -> NDArray[np.intp]:
-    """Indices of about ``count`` points, one per voxel of a size found by bisection."""
+    """Indices (k,) of about ``count`` of the ``points`` (n, 3), one per voxel of a size found by bisection."""
     if len(points) <= _COUNT_TOLERANCE * count:
         return np.arange(len(points))
     low, high = 0.0, float(np.ptp(points, axis=0).max())
@@ -211,6 +212,7 @@ def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) ->
     ----------
     sketch : even points of the whole scan
     shadow : largest area in mm² that the part can cover on a plane
+    generator : draws the triples of points that planes are tried through
     """
     points, normals = sketch.points, sketch.normals
     tolerance = max(5.0 * sketch.noise, 2e-3 * float(np.linalg.norm(np.ptp(points, axis=0))))

@@ -22,7 +22,12 @@ _CHUNK = 4096
 
 
 def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) -> Array:
-    """Uniform clamped knot vector of ``count`` control points over [start, end]; shape (count + degree + 1,)."""
+    """Uniform clamped knot vector of ``count`` control points over [start, end]; shape (count + degree + 1,).
+
+    Raises
+    ------
+    ValueError : too few control points for the degree
+    """
     if count <= degree:
         raise ValueError(f"a spline of degree {degree} needs at least {degree + 1} control points, not {count}")
     inner = np.linspace(start, end, count - degree + 1)
@@ -36,7 +41,9 @@ def greville(knots: Array, degree: int = DEGREE) -> Array:
 
 
 def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int = 0) -> Array:
-    """Dense matrix of the basis functions' values (or derivatives) at ``x``; shape (len(x), len(knots) - degree - 1).
+    """Dense matrix of the basis functions' values, or their ``derivative``: (n, k − degree − 1).
+
+    ``knots`` (k,) and ``x`` (n,) are in one unit.
 
     Meant for grids, where it is small. Scattered points go through `basis_rows`.
     """
@@ -47,7 +54,7 @@ def basis_matrix(knots: Array, x: Array, degree: int = DEGREE, derivative: int =
 
 
 def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np.intp], Array]:
-    """The ``degree + 1`` basis functions that do not vanish at each x.
+    """The ``degree + 1`` basis functions on ``knots`` (k,) that do not vanish at each of ``x`` (n,).
 
     Returns
     -------
@@ -76,7 +83,8 @@ def basis_rows(knots: Array, x: Array, degree: int = DEGREE) -> tuple[NDArray[np
 
 
 def tensor_product(basis_u: Array, basis_v: Array, control_points: Array) -> Array:
-    """Σ_ij N_i(u) N_j(v) P_ij on a grid, from basis matrices: (m, nu), (n, nv), (nu, nv, dim) to (m, n, dim)."""
+    """Σ_ij N_i(u) N_j(v) P_ij on a grid, from ``basis_u`` (m, nu), ``basis_v`` (n, nv) and
+    ``control_points`` (nu, nv, dim): (m, n, dim)."""
     nu, nv, dim = control_points.shape
     along_u = (basis_u @ control_points.reshape(nu, nv * dim)).reshape(len(basis_u), nv, dim)
     return np.asarray(basis_v @ along_u)
@@ -108,7 +116,7 @@ class SplineSurface:
         return float(ku[pu]), float(ku[-pu - 1]), float(kv[pv]), float(kv[-pv - 1])
 
     def inside(self, uv: Array) -> Array:
-        """(n, 2) parameters brought into the range: wrapped where periodic, clipped elsewhere."""
+        """Parameters ``uv`` (n, 2) brought into the range: wrapped where periodic, clipped elsewhere."""
         u0, u1, v0, v1 = self.range
         result = np.empty((len(uv), 2))
         for axis, low, high, periodic in ((0, u0, u1, self.periodic_u), (1, v0, v1, self.periodic_v)):
@@ -118,7 +126,7 @@ class SplineSurface:
         return result
 
     def __call__(self, uv: Array) -> Array:
-        """Values at scattered parameters: (n, 2) to (n, dim). Parameters outside are wrapped or clipped."""
+        """Values at scattered parameters ``uv`` (n, 2): (n, dim). Parameters outside are wrapped or clipped."""
         uv = self.inside(np.asarray(uv, dtype=float))
         first_u, bu = basis_rows(self.knots_u, uv[:, 0], self.degree_u)
         first_v, bv = basis_rows(self.knots_v, uv[:, 1], self.degree_v)
@@ -146,7 +154,8 @@ class SplineSurface:
         return np.stack([tensor_product(bu[du], bv[dv], self.control_points) for du, dv in orders], axis=2)
 
     def derivative(self, du: int, dv: int) -> SplineSurface:
-        """The partial derivative, itself a B-spline of lower degree (NURBS Book, eq. 3.24)."""
+        """The partial derivative, ``du`` times by u and ``dv`` times by v, itself a B-spline of lower degree (NURBS
+        Book, eq. 3.24)."""
         surface = self
         for _ in range(du):
             points, knots = _differentiate(surface.control_points, surface.knots_u, surface.degree_u)

@@ -47,7 +47,7 @@ def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
 
 
 def inside_polylines(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
-    """Whether parameters (n, 2) lie on the face: even-odd rule over the closed polylines."""
+    """Whether parameters ``uv`` (n, 2) lie on the face: even-odd rule over its ``trims``, closed polylines (k, 2)."""
     inside = np.zeros(len(uv), dtype=bool)
     x, y = uv[:, :1], uv[:, 1:]
     for polyline in trims:
@@ -61,7 +61,7 @@ def inside_polylines(trims: Sequence[Array], uv: Array) -> NDArray[np.bool_]:
 
 
 def boundary_points(face: FaceGeometry, spacing: float) -> Array:
-    """Points in space along the trims, no farther apart than about ``spacing`` mm; (n, 3).
+    """Points in space along the trims of a ``face``, no farther apart than about ``spacing`` mm; (n, 3).
 
     Seams of a closed direction and poles are no boundary and are left out.
     """

@@ -105,21 +105,22 @@ class Raster:
         return np.sqrt([dot(t, t).mean() for t in (self.tangent_u, self.tangent_v)])
 
     def wrapped(self, x: Array, axis: int) -> Array:
-        """Cell coordinates along one axis, brought into [0, m) where the direction is closed."""
+        """Cell coordinates ``x`` (n,) along one axis, brought into [0, m) where the direction is closed."""
         if not self.periodic[axis]:
             return x
         count = self.shape[axis]
         return x - count * np.floor(x * (1 / count))
 
     def nearest_turn(self, difference: Array, axis: int) -> Array:
-        """Differences of cell coordinates along one axis, the short way round where the direction is closed."""
+        """Each ``difference`` (n,) of cell coordinates along one axis, the short way round where the direction is
+        closed."""
         if not self.periodic[axis]:
             return difference
         count = self.shape[axis]
         return difference - count * np.rint(difference * (1 / count))
 
     def cell(self, x: Array, y: Array) -> Index:
-        """The cell of (n,) cell coordinates, −1 outside the parameter range."""
+        """The cell of cell coordinates ``x`` and ``y``, (n,) each, −1 outside the parameter range."""
         i, j = (np.floor(self.wrapped(a, k)).astype(np.intp) for k, a in enumerate((x, y)))
         m, n = self.shape
         for a, count, closed in zip((i, j), self.shape, self.periodic, strict=True):
@@ -132,7 +133,7 @@ class Raster:
         return i
 
     def gradient(self, f: Array) -> tuple[Array, Array]:
-        """Central differences of (m·n,) values per cell; closed directions wrap."""
+        """Central differences of ``f``, (m·n,) values per cell; closed directions wrap."""
         grid, result = f.reshape(self.shape), []
         for axis, closed in enumerate(self.periodic):
             if closed:
@@ -192,7 +193,8 @@ _ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 
 
 def frames(surface: SplineSurface, u: Array, v: Array, order: int = 2) -> list[Array]:
-    """S, S_u, S_v, and for ``order`` 2 also S_uu, S_uv, S_vv, on the grid u × v, each (len(u)·len(v), 3)."""
+    """S, S_u, S_v of a ``surface``, and for ``order`` 2 also S_uu, S_uv, S_vv, on the grid u × v, each
+    (len(u)·len(v), 3)."""
     bases_u = [basis_matrix(surface.knots_u, u, surface.degree_u, k) for k in range(order + 1)]
     bases_v = [basis_matrix(surface.knots_v, v, surface.degree_v, k) for k in range(order + 1)]
     orders = [(a, b) for a, b in _ORDERS if a + b <= order]
@@ -200,7 +202,8 @@ def frames(surface: SplineSurface, u: Array, v: Array, order: int = 2) -> list[A
 
 
 def is_affine(surface: SplineSurface) -> bool:
-    """True if S(u, v) is an affine function of (u, v) to 1e-6 mm: a plane in its natural parameters."""
+    """True if S(u, v) of the ``surface`` is an affine function of (u, v) to 1e-6 mm: a plane in its natural
+    parameters."""
     u0, u1, v0, v1 = surface.range
     grid = surface.on_grid(np.linspace(u0, u1, 9), np.linspace(v0, v1, 9))
     a, b = np.linspace(0, 1, 9)[:, None, None], np.linspace(0, 1, 9)[None, :, None]
@@ -209,7 +212,7 @@ def is_affine(surface: SplineSurface) -> bool:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Row-wise scalar products, (n, 3) · (n, 3) to (n,)."""
+    """Row-wise scalar products of ``a`` (n, 3) and ``b`` (n, 3): (n,)."""
     return np.einsum("ij,ij->i", a, b)
 
 

@@ -90,13 +90,7 @@ class Certificate:
 
     def problems(self) -> list[str]:
         """One sentence for everything that is worse than before; empty for a clean result."""
-        sentences = broken(self.before, self.after)
-        if self.excess_gap > GAP_LIMIT:
-            sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
-                             f"{self.after.max_edge_gap:.2g} mm.")
-        if self.after.max_tolerance > self.tolerance_line:
-            sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
-                             f"{self.after.max_tolerance:.2g} mm.")
+        sentences = broken(self.before, self.after) + self.looser()
         worse = [(was, count) for was, count in zip(self.before.boolean_check, self.after.boolean_check, strict=False)
                  if count is not None and count > (was or 0)]
         if worse:
@@ -104,6 +98,17 @@ class Certificate:
             was = sum(known) if len(known) == len(worse) else "an unknown number of"
             count = sum(count for _, count in worse)
             sentences.append(f"The check for Boolean operations reports {count} errors, {was} before.")
+        return sentences
+
+    def looser(self) -> list[str]:
+        """One sentence each where edges gape or tolerances are larger than they may be."""
+        sentences = []
+        if self.excess_gap > GAP_LIMIT:
+            sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
+                             f"{self.after.max_edge_gap:.2g} mm.")
+        if self.after.max_tolerance > self.tolerance_line:
+            sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
+                             f"{self.after.max_tolerance:.2g} mm.")
         return sentences
 
     def as_dict(self) -> dict[str, object]:

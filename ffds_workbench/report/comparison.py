@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The deviation of the same scan points from a nominal model and from the as-built one made of it."""
+"""The deviation of a scan from a nominal model and from the as-built one made of it."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,40 +11,41 @@ import Part
 from ..brep.rebuilt_faces import built_geometry
 from ..brep.workpiece import Workpiece
 from ..registration.arrays import Array
-from .deviation import FaceDeviation, measure, measure_again, reach_of
+from ..registration.face_geometry import FaceGeometry
+from .deviation import FaceDeviation, measure, reach_of
 
 
 def compare(nominal: Workpiece, built: Part.Shape, indices: Sequence[int], points: Array
             ) -> tuple[tuple[FaceDeviation, ...], tuple[FaceDeviation, ...]]:
-    """Deviations before and after of the points that lie on the as-built faces; the same points in both.
+    """Deviations from the nominal and from the as-built faces, each of the points that are nearest to them.
 
-    Faces around the registered ones take part in the contest for points, so that none is blamed for its neighbour's.
+    A point may be nearest to one skin of a sheet before and to the other one after: as every shape has its own nearest
+    points, neither looks better than `measure` finds it by itself. Faces around those asked for take part in the
+    contest for points, so that none is blamed for its neighbour's.
 
     Parameters
     ----------
     nominal, built : before and after
-    indices : the registered faces, 0-based
+    indices : the faces that are asked for, 0-based
     points : the scan, (n, 3) in mm
 
     Returns
     -------
-    before, after : one entry per registered face
+    before, after : one entry per face that is asked for
     """
-    reach = reach_of(built.BoundBox.DiagonalLength)
-    faces = built.Faces
+    reach, after = reach_of(nominal.shape.BoundBox.DiagonalLength), built.Faces
+    return (_measured(nominal.shape.Faces, nominal.geometry, indices, points, reach),
+            _measured(after, lambda index: built_geometry(nominal, index, after[index]), indices, points, reach))
+
+
+def _measured(faces: Sequence[Part.Face], geometry: Callable[[int], FaceGeometry], indices: Sequence[int],
+              points: Array, reach: float) -> tuple[FaceDeviation, ...]:
+    """Deviations of the points (n, 3) nearest to the faces ``indices`` of a shape."""
     low, high = _boxes([faces[index] for index in indices], reach)
     near = np.flatnonzero(((points >= low.min(axis=0)) & (points <= high.max(axis=0))).all(axis=1))
     around = _faces_near(faces, indices, reach)
-    after = measure([built_geometry(nominal, index, faces[index]) for index in around], points[near], reach)
-    measured = {index: replace(item, points=near[item.points]) for index, item in zip(around, after, strict=True)}
-    pairs = []
-    for index in indices:
-        item = measured[index]
-        first = measure_again(nominal.geometry(index), points, item, 3.0 * reach)
-        same = np.isin(item.points, first.points)
-        pairs.append((first, replace(item, points=item.points[same], deviations=item.deviations[same],
-                                     normals=item.normals[same])))
-    return tuple(first for first, _ in pairs), tuple(second for _, second in pairs)
+    found = dict(zip(around, measure([geometry(index) for index in around], points[near], reach), strict=True))
+    return tuple(replace(found[index], points=near[found[index].points]) for index in indices)
 
 
 def _faces_near(faces: Sequence[Part.Face], indices: Sequence[int], reach: float) -> list[int]:

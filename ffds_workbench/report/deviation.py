@@ -81,15 +81,6 @@ def measure(faces: Sequence[FaceGeometry], points: Array, reach: float) -> list[
     return found
 
 
-def measure_again(face: FaceGeometry, points: Array, earlier: FaceDeviation, reach: float) -> FaceDeviation:
-    """Deviations of the points that ``earlier`` gives to a face from another state of that face.
-
-    Points without a foot point on this state are left out.
-    """
-    index, heights, normals = _over_face(make_raster(face), points[earlier.points], reach, trimmed=False)
-    return FaceDeviation(earlier.name, earlier.points[index], heights, normals)
-
-
 def _within(raster: Raster, points: Array, reach: Array) -> Index:
     """The points that can have a foot point on the trimmed face within their own ``reach``, (n,) in mm."""
     cells = raster.position[raster.inside]
@@ -104,10 +95,8 @@ def _cell_size(raster: Raster) -> float:
     return float(np.linalg.norm(np.abs(raster.tangent_u).max(axis=0) + np.abs(raster.tangent_v).max(axis=0)))
 
 
-def _over_face(raster: Raster, points: Array, reach: float, trimmed: bool = True) -> tuple[Index, Array, Array]:
+def _over_face(raster: Raster, points: Array, reach: float) -> tuple[Index, Array, Array]:
     found = surface_coordinates(raster, points, reach)
     cell = raster.cell(found.x, found.y)
-    kept = cell >= 0
-    if trimmed:
-        kept &= raster.inside[cell]
+    kept = (cell >= 0) & raster.inside[cell]
     return found.index[kept], found.height[kept], raster.normal[cell[kept]]

@@ -33,8 +33,8 @@ def doubts(report: Mapping[str, Any]) -> str:
     unsure = report["sheet"]["unsure"]
     if not unsure:
         return ""
-    return (f"The scan may show the other skin of the sheet: everything may be off by its thickness, {unsure:.2f} mm. "
-            f"Scan some of its border as well.")
+    return (f"Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {unsure:.2f} "
+            f"mm, and the bands say so. Scan some of its border as well, or use a scan with normals.")
 
 
 def topology_table(topology: Mapping[str, Any]) -> str:

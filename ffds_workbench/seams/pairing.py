@@ -28,12 +28,12 @@ _TURNS = [np.array(rows) for rows in product(([1.0, 0.0], [-1.0, 0.0], [0.0, 1.0
 def paired_fractions(weldment: Weldment, other: Weldment, edge: int, fractions: Array) -> Array:
     """Fractions of the same edge of another model that mark the same material points: (n,) to (n,).
 
-    The same ones, or at the same share of the length where the ranges differ.
+    The same ones, or at the same share of the edge where the ranges differ in length.
     """
     starts = [model.topology.edge_starts[edge] for model in (weldment, other)]
-    here, there = (np.array(model.edges[edge].ParameterRange) for model in (weldment, other))
+    here, there = (float(np.ptp(model.edges[edge].ParameterRange)) for model in (weldment, other))
     backwards = starts[0] != starts[1]
-    if np.abs(here - there).max() <= _SAME_RANGE * np.ptp(there):
+    if abs(here - there) <= _SAME_RANGE * there:
         return 1.0 - fractions if backwards else fractions
     return by_arc_length(weldment, edge, other, fractions, backwards)
 

@@ -132,3 +132,16 @@ def test_a_hidden_face_is_carried_and_its_band_is_wider():
     assert faces[1]["Face6"]["band"] < 2 * faces[0]["Face6"]["band"]
     below = [edge for edge in hidden["edges"] if set(edge["along"]["flags"]) == {"carried"}]
     assert below and all(len(edge["along"]["bands"]) == len(edge["along"]["flags"]) for edge in hidden["edges"])
+
+
+def test_before_is_what_the_deviation_of_the_nominal_is():
+    """A plate of 5 mm whose top is seen 3 mm too low: its points are nearer to the bottom before, not after."""
+    random = np.random.default_rng(2)
+    sides = [np.column_stack([random.uniform((0, 0), (60, 40), (8000, 2)), np.full(8000, z)]) for z in (2.0, -3.0)]
+    points = np.concatenate(sides) + random.normal(0, NOISE, (16000, 3)) * [0, 0, 1]
+    nominal = Part.makeBox(60, 40, 5)
+    result = api.register(nominal, points)
+    assert result.report["deviation_before"] == api.deviation(nominal, points).report["deviation"]
+    after = api.deviation(result.shape, points).report["deviation"]
+    assert result.report["deviation_after"] == pytest.approx(after, abs=1e-9)
+    assert result.report["deviation_before"]["mean"] == pytest.approx(2.5, abs=0.1)

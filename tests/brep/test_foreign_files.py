@@ -12,7 +12,7 @@ import Part
 import pytest
 
 from ffds_workbench import RESOURCES
-from ffds_workbench.benchmark.simulated import mutations
+from ffds_workbench.benchmark.fuzz import mutations
 from ffds_workbench.brep.model_files import model_file, reader, reading, step_colours
 from ffds_workbench.errors import InputError
 

@@ -40,6 +40,9 @@ def test_writes_model_report_and_picture(ffds, plate, tmp_path):
     topology = report["topology"]
     assert topology["before"] == topology["after"]
     assert topology["order_kept"] and topology["valid"] and topology["closed"]
+    written = topology["written"]
+    assert written["format"] == "step" and written["numbers_kept"] and written["valid"] and written["closed"]
+    assert written["faces_without_mesh"] == [] and written["open_mesh_edges"] == 0
     assert report["scan"] == {"points": 8000, "dropped": 0, "noise": pytest.approx(0.05, rel=0.1), "unit": "mm"}
     assert report["timing"]["total"] > 0
 

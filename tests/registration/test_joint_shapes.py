@@ -8,7 +8,6 @@ import Part
 
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
-from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import register_joint
 
 NOISE, DENSITY = 0.1, 12.0
@@ -93,19 +92,18 @@ def test_the_end_of_the_scan_tells_the_edge():
 def test_one_skin_alone_is_told_by_what_is_nearer():
     """A shifted plate of which one skin is seen and nothing beside it: the other skin explains the scan as well.
 
-    Shifted inwards by less than 3/8 of the thickness the nearer skin is taken; by up to 0.47 of it too, but with bands
-    as wide as the sheet is thick; by half of it there is no nearer one.
+    Shifted inwards by less than 3/8 of the thickness the nearer skin is taken; by half of it too, but as a guess, with
+    bands as wide as the sheet is thick, which hold wherever the truth is.
     """
     size, noise = (60.0, 50.0, 2.0), 0.05
     part, generator = plate(*size), np.random.default_rng(3)
     count = 20_000
     seen = np.column_stack([generator.uniform(1.5, size[0] - 1.5, count), generator.uniform(1.5, size[1] - 1.5, count),
                             np.full(count, size[2])]) + generator.normal(0, noise, (count, 3)) * [0, 0, 1]
-    for shift, unsure in ((-0.5, 0.0), (-0.85, size[2])):
+    for shift, unsure in ((-0.5, 0.0), (-0.85, size[2]), (-1.0, size[2])):
         result = register_joint(part, seen + [0, 0, shift])
         assert result.unsure == pytest.approx(unsure)
         for face in result.faces:
-            assert np.abs(face.displacement(face.uv)[:, 2] - shift).mean() < 0.02
+            off = np.abs(face.displacement(face.uv)[:, 2] - shift)
+            assert off.mean() < (0.02 if shift > -1.0 else size[2] + 0.02)
             assert (face.bands >= unsure).all()
-    with pytest.raises(RefusedError, match="one skin of a thin sheet"):
-        register_joint(part, seen - [0, 0, 1.0])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ffds_workbench.registration.joint.body_field.kriging import (FieldModel, Observations, Pose, condition,
-                                                                  most_likely_model)
+                                                                  most_likely_model, overconfidence)
 
 HALF, NOISE = 30.0, 0.01
 
@@ -88,3 +88,18 @@ def test_turns_that_nothing_shows_stay_with_the_pose():
     spread = [np.sqrt(np.trace(field.covariance(seen.place, none), axis1=1, axis2=2)).mean() for field in (held, free)]
     # Held to 0.01 mm about three axes; free, they are as uncertain as the field's slope of 1 / (3 HALF) over HALF is.
     assert spread[0] < 0.1 < spread[1]
+
+
+def test_what_faces_do_not_share_is_not_trusted_across_them():
+    """Strips of a plane, whose heights one smooth field describes, or one that is folded between them."""
+    generator = np.random.default_rng(5)
+    place = np.column_stack([generator.uniform(-HALF, HALF, (400, 2)), np.zeros(400)])
+    strip = np.floor((place[:, 0] + HALF) / 10.0).astype(int)
+    ratios = []
+    for height in (0.5 * np.sin(place[:, 0] / 20.0), 0.1 * np.maximum(place[:, 0] - 20.0, 0.0)):
+        value = height + 1e-4 * generator.normal(size=400)
+        seen = Observations(place, np.tile([0.0, 0.0, 1.0], (400, 1)), np.zeros(400, dtype=np.intp), value,
+                            np.ones(400), np.zeros(400))
+        ratios.append(overconfidence(most_likely_model(seen), seen, strip))
+    # Six strips, each of one or two independent shapes: a factor of 2 is chance; folded away by 0.5 mm on average.
+    assert ratios[0] < 2.0 and ratios[1] > 3.0, ratios

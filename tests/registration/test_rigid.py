@@ -303,6 +303,10 @@ def test_symmetries():
     box = symmetry_of(target_of(geometry(Part.makeBox(60, 40, 20))))
     assert len(box.motions) == 3 and box.exact.all()             # three half turns
     assert symmetry_of(target_of(geometry(Part.makeCylinder(10, 40)))).axis is not None
+    pipe = symmetry_of(target_of(geometry(Part.makeCylinder(30, 200).cut(Part.makeCylinder(27, 200)))))
+    assert pipe.axis is not None and pipe.ends_alike             # what can be seen of its bore has ragged borders
+    cone = symmetry_of(target_of(geometry(Part.makeCone(20, 5, 40))))
+    assert cone.axis is not None and not cone.ends_alike
     assert not symmetry_of(target_of(geometry(bracket_shape()))).exact.any()
 
 

@@ -85,7 +85,8 @@ def _register(folder: Path, scratch: Path, sensor: SensorProfile | None) -> dict
         api.write(result, out)
     except FfdsError as error:
         return {"refused": str(error)}
-    row: dict[str, Any] = {"seconds": time.perf_counter() - start, "certificate": result.certificate.problems()}
+    row: dict[str, Any] = {"seconds": time.perf_counter() - start, "certificate": result.certificate.problems(),
+                            "unsure": result.joint.unsure}
     own = judge_by_truth(result, truth)
     return row | (_independent(folder, out) or own.pop("judged")) | own["bands"]
 

@@ -121,9 +121,11 @@ def _case_lines(rows: Sequence[Row]) -> list[AccuracyLine]:
                            float(sum(bool(row["certificate"]) or not row["topology"] for row in done)), 0.0)]
     untold = [row for row in rows if row["case"] == _UNTOLD]
     if untold:
-        wrong = [row for row in untold if "refused" not in row and figure(row, "visible") > _WRONG_SKIN]
-        found.append(_at_most(f"{_UNTOLD}, whose skin nothing tells: written on the wrong one", float(len(wrong)), 0.0))
-    refused = [row for row in rows if "refused" in row and row not in untold]
+        wrong = [row for row in untold if not row.get("unsure") and "refused" not in row
+                 and figure(row, "visible") > _WRONG_SKIN]
+        what = f"{_UNTOLD}, whose skin nothing tells: written on the wrong one, and not as a guess with bands as wide"
+        found.append(_at_most(what, float(len(wrong)), 0.0))
+    refused = [row for row in rows if "refused" in row]
     found.append(_at_most("Cases that were refused, though their scans tell enough", float(len(refused)), 0.0))
     return found
 

@@ -38,8 +38,6 @@ def primitives() -> Iterator[tuple[str, Part.Shape]]:
     yield "prism", Part.Face(Part.makePolygon([Vector(15 * np.cos(a), 15 * np.sin(a), 0) for a in
                                                np.linspace(0, 2 * np.pi, 7)])).extrude(Vector(0, 0, 30))
     yield "filleted box", filleted
-    yield "tube", Part.makeCylinder(30, 200).cut(Part.makeCylinder(27, 200))
-    yield "hollow section", Part.makeBox(60, 40, 150).cut(Part.makeBox(54, 34, 150, Vector(3, 3, 0)))
     yield "loft", Part.makeLoft([circle, Part.Wire(Part.makeCircle(16, Vector(0, 0, 15))),
                                  Part.Wire(Part.makeCircle(8, Vector(0, 0, 35)))], True)
     yield "extruded spline", Part.Face(Part.Wire([spline.toShape(), *Part.makePolygon(

@@ -17,6 +17,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import Part
+from FreeCAD import Vector
+
 from ... import ROOT
 from ...errors import InputError
 from ..pages import page
@@ -173,11 +176,13 @@ def _models(folder: Path) -> list[Path]:
 
 
 def _primitives(folder: Path) -> list[Path]:
-    """FreeCAD's own shapes as STEP files; those that are there are kept."""
+    """FreeCAD's own shapes, numbered as FreeCAD makes them; files that are there are kept."""
     folder.mkdir(exist_ok=True)
     paths = []
-    for name, shape in topology_shapes.primitives():
-        paths.append(folder / f"{name.replace(' ', '_')}.step")
+    tubes = {"tube": Part.makeCylinder(30, 200).cut(Part.makeCylinder(27, 200)),
+             "hollow section": Part.makeBox(60, 40, 150).cut(Part.makeBox(54, 34, 150, Vector(3, 3, 0)))}
+    for name, shape in (*topology_shapes.primitives(), *tubes.items()):
+        paths.append(folder / f"{name.replace(' ', '_')}.brep")
         if not paths[-1].is_file():
-            shape.exportStep(str(paths[-1]))
+            shape.exportBrep(str(paths[-1]))
     return paths

@@ -56,15 +56,16 @@ class ControlLattice:
         return self.free == self.unknown.size
 
     def basis_u(self, u: Array, derivative: int = 0) -> Array:
-        """Basis functions of the rows at u, (len(u), rows); repeated rows added up."""
+        """Basis functions of the rows at u (n,), or a ``derivative`` of them: (n, rows); repeated rows added up."""
         return sum_repeated(basis_matrix(self.knots_u, u, derivative=derivative), self.fold_u)
 
     def basis_v(self, v: Array, derivative: int = 0) -> Array:
-        """Basis functions of the columns at v, (len(v), columns); repeated columns added up."""
+        """Basis functions of the columns at v (n,), or a ``derivative`` of them: (n, columns); repeated columns added
+        up."""
         return sum_repeated(basis_matrix(self.knots_v, v, derivative=derivative), self.fold_v)
 
     def field(self, free_points: Array) -> SplineSurface:
-        """The displacement whose free control points are (free, 3), in mm."""
+        """The displacement with these ``free_points``, (free, 3) in mm."""
         points = free_points[self.unknown][np.ix_(self.fold_u, self.fold_v)]
         return SplineSurface(self.knots_u, self.knots_v, points,
                              periodic_u=self.periodic_u, periodic_v=self.periodic_v)

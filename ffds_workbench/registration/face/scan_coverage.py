@@ -21,6 +21,7 @@ def covered_share(raster: Raster, points: Array) -> float:
 
     Parameters
     ----------
+    raster : of the face, (m, n) cells
     points : (m·n,) number, or weight, of the scan points in each cell
     """
     occupied = (points > 0) & raster.inside

@@ -19,6 +19,8 @@ _REACH = 1.5
 _LEAST_REACH = 3.0
 _STIFF = 30.0
 """The reach over the scatter of the points about the shape while it is still stiff (unit)."""
+_BESIDE_EDGE = 0.01
+"""The same beside an edge, where no points hold the shape, over the reach (unit)."""
 _MODEL = 3e-4
 """Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
 
@@ -45,6 +47,11 @@ class Lengths:
     def start(self) -> float:
         """Standard deviation of a point about the part before it is deformed."""
         return max(self.noise, self.reach / _STIFF)
+
+    @property
+    def border(self) -> float:
+        """Least standard deviation of the points about the shape beside an edge, where the cells hold none."""
+        return max(self.noise, self.reach * _BESIDE_EDGE)
 
     @property
     def model(self) -> float:

@@ -15,9 +15,9 @@ _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100
 """Neighbours that a plane is put through."""
 _PLANE_TURN = 0.15
 """Standard deviation in rad that noise may turn a plane by; in a disc of radius r with k points it is 2σ/(r√k)."""
-_ONE_SKIN_RADIUS, _BOTH_SKINS_RADIUS = 0.5, 2.0
-"""Radius of a neighbourhood over the thickness up to which it holds points of one skin, and from which those of both
-turn its plane no more: two parallel planes have the normal of one."""
+_ONE_SKIN_RADIUS, _MIXED_RADIUS, _BOTH_SKINS_RADIUS = 0.5, 0.8, 2.0
+"""Radius of a neighbourhood over the thickness up to which it holds points of one skin, from which it may hold some of
+the other, and from which those turn its plane no more: two parallel planes have the normal of one."""
 _COUNT_BOUNDS, _POINT_DISTANCE, _SPARE_FACTOR = (2500, 40_000), 0.6, 2
 """Points that tell sides, at least and at most; their distance over the thickness, as far ones link skins; and how many
 times as many even ones are taken from."""
@@ -33,7 +33,7 @@ class SkinPoints:
 
     Attributes
     ----------
-    points, normals : (n, 3) in mm, and unit vectors of one sign within a piece
+    points, normals : (n, 3) in mm, on the planes through their neighbours; unit vectors of one sign within a piece
     piece : (n,) number of the connected piece
     """
 
@@ -61,15 +61,19 @@ def skin_points(scan: Array, part: cKDTree, reach: float, statistics: ScanStatis
     pool = scan if share == 1.0 else generator.choice(scan, int(share * len(scan)), replace=False, shuffle=False)
     density = np.pi * share * statistics.density
     neighbours = max(_LEAST_NEIGHBOURS, 2 * statistics.noise * np.sqrt(density) / _PLANE_TURN)
-    if neighbours > density * (_ONE_SKIN_RADIUS * thickness) ** 2:
+    mixed = neighbours > density * (_MIXED_RADIUS * thickness) ** 2
+    if mixed:
         neighbours = max(neighbours, density * (_BOTH_SKINS_RADIUS * thickness) ** 2)
     distance, index = cKDTree(pool).query(points, min(int(np.clip(neighbours, _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS)),
                                                       len(pool)), workers=-1)
     usual = distance[:, -1] < _STRAY_DISTANCE * np.median(distance[:, -1])
-    around = pool[index[usual]]
-    around = around - around.mean(axis=1, keepdims=True)
+    points, around = points[usual], pool[index[usual]]
+    middle = around.mean(axis=1)
+    around = around - middle[:, None]
     normals = np.linalg.eigh(np.matmul(around.swapaxes(1, 2), around))[1][:, :, 0]
-    return SkinPoints(points[usual], *orient_normals(points[usual], normals))
+    if not mixed:
+        points = points - np.einsum("nx,nx->n", points - middle, normals)[:, None] * normals
+    return SkinPoints(points, *orient_normals(points, normals))
 
 
 def _even(points: Array, count: int) -> Array:

@@ -15,7 +15,6 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ...errors import RefusedError
 from ..arrays import Array, Index
 from .data import correspond, make_frames
 from .problem import Problem
@@ -42,9 +41,9 @@ _WALL_POINTS, _WALL_RATIO = 50, 3
 """Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
 times the other fit's, plus the first."""
 _MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
-"""Else the fit that moved less is right if its movement is below the first factor times the other's. Between the first
-and the second factor it is chosen as well, with bands as wide as the sheet is thick. A fit that the scan's normals
-favour is kept unless the other moved less by the first factor, with such wide bands if it moved less by the second."""
+"""Else the fit that moved less is right if its movement is below the first factor times the other's. Above it this is a
+guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other moved
+less by the first factor, with such wide bands if it moved less by the second."""
 _AGREEMENT = 0.5
 """Mean of the signs within a smooth piece above which they are trusted."""
 _MUCH_CLOSER = 0.5
@@ -56,6 +55,8 @@ normals on more than the third share."""
 _NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
 """Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
 and the sine of the step out of their planes is below the third."""
+_FARTHEST_IN_NOISES = 4.0
+"""Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings."""
 
@@ -67,14 +68,14 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
     nearer side first, or, if the scan's normals tell the side, theirs; None where no sheet is so thin that its sides
     could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
     """
-    sheets = [t for t in problem.couplings.pairs.solid_thickness if t]
-    if not sheets or min(sheets) > _TOO_THICK * reach:
+    thickness = _thinnest(problem)
+    if thickness > _TOO_THICK * reach:
         return [None], False
     inside = problem.cells.inside
     place = problem.cells.nominal.position[inside]
     normal = normals(problem.cells.nominal, problem.cells.outward)[0][inside]
     generator = np.random.default_rng(problem.settings.seed)
-    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, min(sheets), generator)
+    sketch = skin_points(problem.scan, cKDTree(place), reach, problem.statistics, thickness, generator)
     if len(sketch.points) < _LEAST_NEAR_POINTS:
         return [None], False
     tree = cKDTree(sketch.points)
@@ -94,15 +95,27 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
             if side is sides[0] or (side != sides[0]).any()], bool(told.any())
 
 
+def outward_normals_of_all(problem: Problem, facing: Array | None) -> Array | None:
+    """Outward unit normals at all scan points, zero where they cannot be told, from those of the sample (m, 3): (n, 3).
+
+    None where noise carries no point over the middle of a sheet.
+    """
+    if facing is None or _FARTHEST_IN_NOISES * problem.statistics.noise < 0.5 * _thinnest(problem):
+        return None
+    return np.asarray(facing[cKDTree(problem.sample).query(problem.scan, workers=-1)[1]])
+
+
+def _thinnest(problem: Problem) -> float:
+    """Thickness in mm of the thinnest sheet, infinite where there is none."""
+    return min((t for t in problem.couplings.pairs.solid_thickness if t), default=np.inf)
+
+
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
     Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
-    did not move far more.
-
-    Raises
-    ------
-    RefusedError : the scan shows a skin and nothing beside it, and both fits are as near to the nominal part
+    did not move far more. Without them the one that moved less is a guess, with bands as wide as the sheet is thick,
+    unless it moved far less.
     """
     if len(states) == 1:
         return states[0]
@@ -119,13 +132,8 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     if told:
         chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
         return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
-    for own, other in ((0, 1), (1, 0)):
-        if moved[own] < _MOVED_CLEARLY_LESS * moved[other]:
-            return states[own]
-        if moved[own] < _MOVED_ALIKE * moved[other]:
-            return replace(states[own], unsure=thickness)
-    raise RefusedError("The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as "
-                       "well, use a scan with normals, or align it to less than half the sheet's thickness first.")
+    chosen = states[int(np.argmin(moved))]
+    return chosen if moved.min() < _MOVED_CLEARLY_LESS * moved.max() else replace(chosen, unsure=thickness)
 
 
 def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:

@@ -25,7 +25,7 @@ from .outcome import refuse_unsound, summarise
 from .prior_trust import is_isometric, may_be_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
-from .skins import candidate_outward_normals, choose_skin
+from .skins import candidate_outward_normals, choose_skin, outward_normals_of_all
 from .state import State, StepCache, start
 from .surfaces import Jet, JointPart, close_seams
 from .uncertainty import misfit
@@ -115,7 +115,8 @@ def run_stage(problem: Problem, stage: Stage, state: State,
         return state
     cache = state.cache
     if stage.all_points and not stage.body:
-        cache = replace(cache, nearest=None, factor_bending=np.inf)
+        cache = replace(cache, nearest=None, factor_bending=np.inf,
+                        facing=outward_normals_of_all(problem, state.facing))
     if stage.soft:
         cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
                         body=None)
@@ -165,7 +166,7 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
     gate = max(stage.gate, 4 * problem.statistics.noise)
     found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
-                       None if stage.all_points else state.facing)
+                       state.cache.facing if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
     return found
@@ -189,7 +190,7 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
         borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
-                               problem.lengths.start, cache.borders)
+                               np.maximum(state.values.scatter.loss, problem.lengths.border), cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
             cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))

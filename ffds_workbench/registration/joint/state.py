@@ -25,6 +25,7 @@ class StepCache:
     thickness_rows : along which normals thickness is measured
     moved : how far the shape has moved since `strain_matrices`, in mm
     nearest : nearest cells of the scan points of this stage, once they were matched
+    facing : outward normals of all scan points, zero where unknown; None where it does not matter
     near_edges, borders : scan points near the edges and visible borders, from the soft stages on
     body : what the body tells of its faces, in its stage
     factor, factor_bending : of an earlier normal matrix, and the multiple of the bending weight in it
@@ -34,6 +35,7 @@ class StepCache:
     thickness_rows: ThicknessRows
     moved: float = 0.0
     nearest: Index | None = None
+    facing: Array | None = None
     near_edges: NearEdges | None = None
     borders: Borders | None = None
     body: BodyRows | None = None

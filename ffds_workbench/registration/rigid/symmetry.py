@@ -36,16 +36,21 @@ class Symmetry:
     motions : (k, 4, 4) without the identity; of a continuous symmetry a few representatives
     exact : (k,) whether the part is the same after it; else only nearly so
     axis : (3,) axis of a body of revolution, or None
+    ends_alike : whether a body of revolution is the same end for end
     """
 
     motions: Array
     exact: Array
     axis: Array | None
+    ends_alike: bool = False
 
     def text(self) -> str:
         """One phrase for the user, empty if there is no symmetry."""
         if self.axis is not None:
-            return "a body of revolution about the axis ({:.2f}, {:.2f}, {:.2f})".format(*np.round(self.axis, 2) + 0.0)
+            x, y, z = np.round(self.axis, 2) + 0.0
+            if self.ends_alike:
+                return f"a body of revolution about the axis ({x:.2f}, {y:.2f}, {z:.2f}), the same end for end"
+            return f"a body of revolution about the axis ({x:.2f}, {y:.2f}, {z:.2f})"
         phrases = [turn_name(Rotation.from_matrix(pose[:3, :3]).as_rotvec(), _HALF_TURN_TOLERANCE)
                    for pose in self.motions[self.exact]]
         return "the same after a turn of " + " or ".join(phrases) if phrases else ""
@@ -64,13 +69,14 @@ def symmetry_of(target: Target) -> Symmetry:
     points = samples.points[chosen]
     found: list[Array] = []
     exact: list[bool] = []
-    for family in _families(moments, axes):
+    families = _families(moments, axes)
+    for family in families:
         poses = motion(family, target.centre - family @ target.centre)
         misses = np.array([_misses(target, points[:150], pose).mean() for pose in poses])
         if len(poses) == _TRIED_ANGLES - 1 and misses.max() < 0.5 * _NEARLY_SAME * size:
             turned = [_is_exact(target, points, pose) for pose in poses]
             if all(turned):
-                return Symmetry(poses[8::9], np.ones(len(poses[8::9]), dtype=bool), _axis(poses[8]))
+                return _revolution(target, points, poses, families[-1])
         lowest = np.ones(len(poses), dtype=bool)
         if len(poses) > 3:
             lowest = (misses <= np.roll(misses, 1)) & (misses <= np.roll(misses, -1))
@@ -81,6 +87,15 @@ def symmetry_of(target: Target) -> Symmetry:
                 exact.append(_is_exact(target, points, pose))
                 found.append(refine(target, samples.points[::4], pose, (_EXACTLY_SAME * size,)) if exact[-1] else pose)
     return Symmetry(np.array(found).reshape(-1, 4, 4), np.array(exact, dtype=bool), None)
+
+
+def _revolution(target: Target, points: Array, turns: Array, flips: Array) -> Symmetry:
+    """A body of revolution, some of whose turns stand for all, and the flip end for end if it is the same after it."""
+    flip = motion(flips[:1], target.centre - flips[:1] @ target.centre)
+    motions = np.concatenate([turns[8::9], flip]) if _is_exact(target, points, flip[0]) else turns[8::9]
+    axis = _axis(turns[8])
+    return Symmetry(motions, np.ones(len(motions), dtype=bool), axis * np.sign(axis[np.argmax(np.abs(axis))]),
+                    len(motions) > len(turns[8::9]))
 
 
 def _families(moments: Array, axes: Array) -> list[Array]:
@@ -100,12 +115,12 @@ def _families(moments: Array, axes: Array) -> list[Array]:
 
 
 def _misses(target: Target, points: Array, pose: Array) -> Array:
-    """Distances in mm of the turned points from the part, beyond what the sampling itself leaves; (n,)."""
-    moved = apply(pose, points)
-    nearest = target.tree.query(moved)[1]
-    height, normal = target.heights(moved, nearest)
-    beside = np.linalg.norm(moved - target.samples.points[nearest] - height[:, None] * normal, axis=1)
-    return np.hypot(height, np.maximum(beside - 1.5 * target.spacing, 0.0))
+    """Distances in mm of the turned points from the part, seen or not, beyond what the sampling itself leaves; (n,)."""
+    moved, whole = apply(pose, points), target.whole
+    nearest = whole.tree.query(moved)[1]
+    height, normal = whole.heights(moved, nearest)
+    beside = np.linalg.norm(moved - whole.samples.points[nearest] - height[:, None] * normal, axis=1)
+    return np.hypot(height, np.maximum(beside - 1.5 * whole.spacing, 0.0))
 
 
 def _is_exact(target: Target, points: Array, pose: Array) -> bool:

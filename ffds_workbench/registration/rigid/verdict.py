@@ -11,6 +11,7 @@ from ..arrays import Array
 from ..motions import angle, apply, shift
 from ..scan_sketch import Plane, Sketch
 from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
+from .evidence import Evidence
 from .hypothesis import SAME_SHIFT, SAME_TURN, SCORE_MARGIN, Hypothesis
 from .model import Target
 from .polish import polish
@@ -43,9 +44,7 @@ def alignment_of(target: Target, sketch: Sketch, table: Plane | None, best: Hypo
     height = target.heights(moved[near], closest[near])[0] if near.any() else np.zeros(1)
     reason, verdict = "", OK
     if evidence.certainty < LEAST_CERTAINTY or evidence.coverage < _LEAST_COVERAGE:
-        verdict, poses = FAILED, poses[:1]
-        reason = (f"only {100 * evidence.explained:.0f} % of the scan lies on the part and only "
-                  f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
+        verdict, poses, reason = FAILED, poses[:1], _why_failed(evidence)
     elif rivals:
         verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
     sure = float(np.clip((evidence.certainty - LEAST_CERTAINTY) / (1.0 - LEAST_CERTAINTY), 0.0, 1.0))
@@ -53,6 +52,14 @@ def alignment_of(target: Target, sketch: Sketch, table: Plane | None, best: Hypo
     return Alignment(best.pose, verdict, confidence, poses, reach, float(near.mean()),
                      float(np.sqrt(np.mean(height**2))), evidence.explained, evidence.coverage, symmetry.text(), scale,
                      unit_name(scale), table is not None, reason)
+
+
+def _why_failed(evidence: Evidence) -> str:
+    if evidence.certainty >= LEAST_CERTAINTY:
+        return (f"the scan fits, but shows only {100 * evidence.coverage:.0f} % of the part, too little to tell this "
+                f"pose from others: scan more of it, or align it by three points")
+    return (f"only {100 * evidence.explained:.0f} % of the scan lies on the part and only "
+            f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
 
 
 def _rivals(target: Target, sketch: Sketch, table: Plane | None, best: Hypothesis, verified: Sequence[Hypothesis],

@@ -51,7 +51,12 @@ class FacePoints:
             yield inner.part(slice(0)), rim
 
     def only(self, mask: NDArray[np.bool_]) -> FacePoints:
-        """The same with a part of the kept points, by a mask over those at least the margin from the trims."""
+        """The same with a part of the kept points, by a ``mask`` (n,) over those at least the margin from the trims.
+
+        Raises
+        ------
+        ValueError : the points are too many to be kept
+        """
         if self.kept is None:
             raise ValueError("the points are too many to be kept")
         inner = self.kept[0].part(np.flatnonzero(mask))
@@ -70,6 +75,7 @@ def face_points(raster: Raster, scan: Array, reach: float, margin: float, sample
 
     Parameters
     ----------
+    raster : of the face
     scan : (n, 3) in mm
     reach : largest |height| in mm
     margin : distance from the trims in mm that sets inner points apart

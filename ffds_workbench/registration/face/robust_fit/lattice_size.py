@@ -41,6 +41,12 @@ _BENDING_NODES = 100
 def coarse_lattice(raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:
     """(N_i, N_j) for the early steps: at most 7 spans along the longer side, none finer than the data resolve.
 
+    Parameters
+    ----------
+    raster : of the face
+    layers : heights of the scan over the nominal, block by block
+    stiffness : weight of the bending energy in chi-square units
+
     Notes
     -----
     A smoothing spline with bending weight λ on ρ points per mm² of noise σ averages over the length (λ σ² / ρ)^¼.
@@ -56,7 +62,7 @@ def automatic_lattice(surface: SplineSurface, raster: Raster, layers: Layers, we
 
     Parameters
     ----------
-    surface : the nominal surface
+    surface, raster : the nominal surface, and the raster of the face
     layers : heights of the scan over the nominal, block by block
     weights : (k,) weight of each layer: its points, zero for what is not the face
     stiffness : weight of the bending energy in chi-square units

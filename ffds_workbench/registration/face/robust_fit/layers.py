@@ -105,7 +105,8 @@ class Layers:
 def dense_layers(raster: Raster, points: SurfaceCoordinates) -> Layers:
     """Split the points of each block of cells at gaps along the normal, and keep the dense layers.
 
-    ``points`` must not be empty. Blocks are large enough to hold about 16 points where the scan covers the face.
+    ``points`` on the ``raster`` of the face must not be empty. Blocks are large enough to hold about 16 points where
+    the scan covers the face.
     """
     block, edge = _blocks(raster, points)
     order = np.lexsort((points.height, block))
@@ -148,7 +149,7 @@ class SmallMotion:
 
 
 def rigid_start(raster: Raster, layers: Layers) -> SmallMotion:
-    """The small rigid motion that explains most of the layers.
+    """The small rigid motion that explains most of the layers on the ``raster`` of a face.
 
     Motions are fitted from starts spread along the normal, with gates that narrow; the one that explains most blocks
     wins, the one nearer to the nominal where two explain about as many.

@@ -32,6 +32,7 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
 
     Parameters
     ----------
+    raster, layers : of the face, and the k layers of the scan over it
     residual : (k,) heights of the layers over a stiff surface through most of them, in mm
     """
     block = np.repeat(np.arange(len(layers.first)), np.diff(np.append(layers.first, len(layers.x))))
@@ -65,7 +66,8 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
 
 
 def main_patches(label: Index, weights: Array) -> NDArray[np.bool_]:
-    """Which layers lie in a patch that carries at least a tenth of the weight of the heaviest one."""
+    """Which layers lie in a patch that carries at least a tenth of the weight of the heaviest one, (k,); ``label`` (k,)
+    is the number of their patch, ``weights`` (k,) are theirs."""
     total = np.bincount(label, weights)
     return np.asarray((total >= _MAIN_PATCH_SHARE * total.max())[label])
 
@@ -76,6 +78,8 @@ def proven(raster: Raster, layers: Layers, label: Index, trusted: NDArray[np.boo
 
     Parameters
     ----------
+    raster, layers : of the face, and the k layers of the scan over it
+    label, trusted : (k,) the patch of each layer, and which are trusted already
     residual : (k,) heights of the layers over that surface in mm
     gate : how far off in mm a patch may lie on average, in direct reach of the trusted layers
     curvature : in 1/mm; over a gap of s mm, curvature · s² is added

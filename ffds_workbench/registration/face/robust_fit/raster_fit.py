@@ -110,7 +110,7 @@ class RasterFit:
 
         Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
         closely, and leads on as it bends where nothing is seen. The length over which curvature may change is that of
-        the displacement found so far, on this lattice.
+        the displacement of ``state``, on this lattice.
         """
         if not self.raster.flat:
             return
@@ -136,6 +136,7 @@ class RasterFit:
 
         Parameters
         ----------
+        state : the displacement so far
         data : scan points, or their layers; `FacePoints` near the trims count where they agree with the surface
         noise : standard deviation of a point along the normal, in mm
         stiffness : multiplier of the bending energy
@@ -154,7 +155,8 @@ class RasterFit:
         return self._state(control_points, seen.weight, int(seen.count.sum()), new_noise)
 
     def look(self, state: FitState, layers: Layers, gate: float) -> tuple[Array, Array]:
-        """Heights of layers over the surface of a state, and their weights about it."""
+        """Heights of k layers over the surface of a ``state``, (k,) in mm, and their weights (k,) within the ``gate``
+        in mm."""
         _, residual, weight = self._weighed(self._graph(state), layers, max(gate, TUKEY_SIGMAS * layers.noise))
         return residual, weight
 

@@ -18,7 +18,7 @@ from ..data import Borders, CellHeights
 from ..priors import COMPONENTS, PriorTrust, pose_weight
 from ..problem import Problem
 from ..surfaces import Jet, normals
-from .kriging import FieldModel, Observations, Pose, condition, most_likely_model
+from .kriging import FieldModel, Observations, Pose, condition, most_likely_model, overconfidence
 
 _PATCHES_PER_SIDE = 4
 """Patches per direction of a span whose heights are averaged: small against what the field changes over."""
@@ -75,7 +75,7 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
     and ``borders`` there. Of an ``earlier`` step the model and the precision are kept, and after a few all of it."""
     if earlier is not None and earlier.steps == _STEPS_TO_SETTLE:
         return earlier
-    seen = _observe(problem, control_points, jet, values, borders)
+    seen, face = _observe(problem, control_points, jet, values, borders)
     cells, shape = problem.cells, problem.cells.inside.shape
     shown = values.weight.reshape(shape) > 0
     motion = best_fit(cells.nominal.position[shown], jet.position[shown])
@@ -94,6 +94,7 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
     if earlier is not None:
         return replace(earlier, steps=earlier.steps + 1, displacement=displacement)
     covariance = field.covariance(place, body) + model.variance * model.noise * np.eye(3)
+    covariance *= overconfidence(model, seen, face)
     return BodyRows(model, 1, spans, cells.tables[0][middle], displacement, np.linalg.inv(covariance),
                     _is_sheet(problem, body))
 
@@ -120,8 +121,10 @@ def _weight_share(sheet: NDArray[np.bool_], trust: PriorTrust) -> Array:
     return np.where(sheet, _SHEET_SHARE * (1 - trust.isometry), 1.0)
 
 
-def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellHeights, borders: Borders) -> Observations:
-    """The displacement along the current normals, patch by patch, and across some of the visible borders."""
+def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellHeights, borders: Borders
+             ) -> tuple[Observations, Index]:
+    """The displacement along the current normals, patch by patch, and across some of the visible borders; and their
+    faces."""
     cells, shape = problem.cells, problem.cells.inside.shape
     weight = values.weight.reshape(shape)
     patch = (_PATCHES_PER_SIDE * cells.local).astype(int) @ (1, _PATCHES_PER_SIDE)
@@ -142,8 +145,9 @@ def _observe(problem: Problem, control_points: Array, jet: Jet, values: CellHeig
     body = problem.part.solid_of_face
     some = np.arange(0, len(borders.along), _BORDER_STRIDE)
     edge, out, across = borders.samples.take(some), borders.direction[some], borders.along[some]
+    face = np.concatenate([problem.lattices.face_of_span[span], edge.face])
     return Observations(np.concatenate([nominal, edge.nominal[0]]), np.concatenate([normal, out]),
                         np.concatenate([body[problem.lattices.face_of_span[span]], body[edge.face]]),
                         np.concatenate([along, across]),
                         np.concatenate([usual / total[span, part], np.zeros(len(across))]),
-                        np.concatenate([np.zeros(len(along)), 1 / borders.weight[some]]))
+                        np.concatenate([np.zeros(len(along)), 1 / borders.weight[some]])), face

@@ -163,6 +163,24 @@ def most_likely_model(seen: Observations) -> FieldModel:
     return best[1]
 
 
+def overconfidence(model: FieldModel, seen: Observations, block: Index) -> float:
+    """How many times as large as it says the variance is with which the field foretells a block from all others, ≥ 1.
+
+    Every block (n,) of observations is left out in turn (eq. 5.10 to 5.12, for blocks: the inverse of K's own block).
+    """
+    some = np.flatnonzero(seen.noise > 0)[:_LIKELIHOOD_SAMPLE]
+    few, block = seen.take(some), block[some]
+    factor = cholesky(model.between(few) + np.diag(model.noise * few.noise), lower=True, check_finite=False)
+    inverse = cho_solve((factor, True), np.eye(len(some)), check_finite=False)
+    pull = inverse @ few.value
+    ratio = 0.0
+    for number in np.unique(block):
+        own = np.flatnonzero(block == number)
+        covariance = np.linalg.inv(inverse[np.ix_(own, own)])
+        ratio += len(own) * float(((covariance @ pull[own]) ** 2).sum() / np.trace(covariance))
+    return max(1.0, ratio / (model.variance * len(some)))
+
+
 def _grid_neighbours(length: int, noise: int) -> list[tuple[int, int]]:
     """Neighbours of a model on the grid of lengths and noises."""
     return list(product(range(max(0, length - 1), min(length + 2, len(_TRIED_LENGTHS))),

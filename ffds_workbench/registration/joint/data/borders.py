@@ -124,10 +124,10 @@ def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, co
 
 
 def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, noise: float,
-                 spread: float, known: Borders | None) -> Borders:
+                 spread: Array, known: Borders | None) -> Borders:
     """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
-    edges lie where they were looked for. ``noise`` is that of the points, ``spread`` that of those of a face about the
-    shape as it is, in mm."""
+    edges lie where they were looked for. ``noise`` is that of the points, ``spread`` (faces,) that of the points about
+    the shape as it is, in mm."""
     shape = _sharp_edges(edges, sides, control_points)
     if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST:
         return known
@@ -151,7 +151,7 @@ def _sharp_edges(edges: SharedEdgePlaces, sides: EdgeSides, control_points: Arra
 
 
 def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlaces, other: FacePlaces, sign: Array,
-              sharp: NDArray[np.bool_], control_points: Array, noise: float, spread: float
+              sharp: NDArray[np.bool_], control_points: Array, noise: float, spread: Array
               ) -> tuple[Array, Array, Array]:
     """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
     count = len(edges.edge)
@@ -163,8 +163,8 @@ def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlac
         return nothing
     local = points - place[row]
     across = np.einsum("nx,nx->n", local, out[row])
-    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * spread
-    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * spread) & (
+    on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * spread[seen.face[row]]
+    on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * spread[other.face[row]]) & (
         np.einsum("nx,nx->n", local, away[row]) < -_DENSITY_BAND[0])
     unlike = ~on_seen & (on_other | (across > -_DENSITY_BAND[0]))
     outermost = _from_top(row[on_seen], across[on_seen], count)

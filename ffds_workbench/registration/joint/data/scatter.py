@@ -8,8 +8,10 @@ other than a lattice can bend between. A shape that leaves the points is pulled 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from ...arrays import Array, Index
@@ -20,6 +22,8 @@ PATCHES_PER_SPAN = 2
 _PRIOR_COUNT = 50.0
 """Differences that the whole part counts for beside those of a face (unit: some spans)."""
 _LEAST_DIFFERENCES = 20
+_LEAST_WEIGHT = 0.5
+"""Of a point, that a patch has to have."""
 _LARGEST_EXCESS = 20.0
 """Excess over its upper quartile from which a squared difference is cut: that of normal ones is below it once in ten
 thousand (theory)."""
@@ -95,24 +99,32 @@ def model_noise(height: Array, total: Array, face_of_span: Index, sensor: Array)
     """Standard deviation of what the patches of a span do not share, beyond the sensor's noise: (faces,) in mm.
 
     Moment estimator: ``height`` and ``total`` (spans, k) are means and sums of weights of the cells. A face's own is
-    shrunk towards the whole part's by its count (James and Stein).
+    shrunk towards the whole part's by its count (James and Stein). A small face that lies off its points is no better
+    known than that: its neighbours hold it.
     """
-    weight = patch_sums(total)
+    faces, weight = len(sensor), patch_sums(total)
     mean = patch_sums(total * height) / np.maximum(weight, 1e-12)
-    excess, face = [], []
-    for axis in (1, 2):
-        a, b = (np.take(weight, k, axis) for k in (0, 1))
-        both = (a > 0.5) & (b > 0.5)
-        square = (np.diff(mean, axis=axis).squeeze(axis)[both]) ** 2
-        owner = np.broadcast_to(face_of_span[:, None], both.shape)[both]
-        excess.append(0.5 * (square - sensor[owner] ** 2 * (1 / a[both] + 1 / b[both])))
-        face.append(owner)
-    values, owner = np.concatenate(excess), np.concatenate(face)
-    faces = len(sensor)
-    if not len(values):
-        return np.zeros(faces)
-    values = np.minimum(values, _LARGEST_EXCESS * max(float(np.quantile(values, 0.75)), 0.0) + 1e-18)
-    whole = values.mean()
-    count = np.bincount(owner, minlength=faces)
-    own = np.bincount(owner, weights=values, minlength=faces)
-    return np.sqrt(np.maximum((own + _PRIOR_COUNT * max(whole, 0.0)) / (count + _PRIOR_COUNT), 0.0))
+    noise = sensor[face_of_span, None, None] ** 2 / np.maximum(weight, 1e-12)
+    owner = np.broadcast_to(face_of_span[:, None, None], weight.shape)
+    seen = weight > _LEAST_WEIGHT
+    both = _first(seen) & _second(seen)
+    excess = 0.5 * ((_first(mean) - _second(mean)) ** 2 - _first(noise) - _second(noise))[both]
+    face = _first(owner)[both]
+    count = np.bincount(face, minlength=faces)
+    own = np.bincount(face, excess, faces)
+    small = seen & (count < _PRIOR_COUNT)[owner]
+    own += np.bincount(owner[small], (mean**2 - noise)[small], faces)
+    count += np.bincount(owner[small], minlength=faces)
+    usual = max(float(np.quantile(excess, 0.75)), 0.0) if len(excess) else 0.0
+    whole = max(float(np.minimum(excess, _LARGEST_EXCESS * usual).mean()), 0.0) if len(excess) else 0.0
+    return np.sqrt(np.maximum((own + _PRIOR_COUNT * whole) / (count + _PRIOR_COUNT), 0.0))
+
+
+def _first(patches: NDArray[Any]) -> NDArray[Any]:
+    """The first ones of neighbouring patches (spans, 2, 2), along both directions: (2 spans, 2)."""
+    return np.concatenate([patches[:, :, 0], patches[:, 0]])
+
+
+def _second(patches: NDArray[Any]) -> NDArray[Any]:
+    """Their neighbours: (2 spans, 2)."""
+    return np.concatenate([patches[:, :, 1], patches[:, 1]])

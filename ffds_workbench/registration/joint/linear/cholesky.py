@@ -65,6 +65,8 @@ class FrontLayout:
 class FrontCholesky:
     """A = Uᵀ U, front by front."""
 
+    flat: Array
+
     def __init__(self, layout: FrontLayout, blocks: Array, earlier: FrontCholesky | None = None) -> None:
         """Factor the matrix with the pattern's ``blocks`` (n, 3, 3).
 
@@ -75,8 +77,7 @@ class FrontCholesky:
         numpy.linalg.LinAlgError : the matrix is not positive definite
         """
         self.layout = layout
-        flat: Array = np.empty(layout.offset[-1]) if earlier is None else earlier.flat
-        self.flat = flat
+        self.flat = flat = np.empty(layout.offset[-1]) if earlier is None else earlier.flat
         flat[:] = 0.0
         flat[layout.target] = blocks[layout.upper].ravel()
         self.own: list[Array] = []

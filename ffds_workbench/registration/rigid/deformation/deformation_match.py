@@ -68,6 +68,7 @@ def match_deformed(target: Target, points: Array, normals: Array, reach: float, 
 
     Parameters
     ----------
+    target : the nominal part
     points, normals : (n, 3) in model coordinates, normals outward
     reach : largest distance in mm
     rounds : gates as shares of the part's size, and degrees of the deformation

@@ -41,6 +41,7 @@ def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: 
 
     Parameters
     ----------
+    target : the nominal part
     points, normals : (n, 3) of the scan in model coordinates, normals outward
     reach : in mm
     pool : (m, 3) more points, which show where the scan ends

@@ -132,7 +132,7 @@ class DisplacementField:
         return points - self(near)
 
     def moved(self, motion: Array) -> DisplacementField:
-        """The deformation of the part after it has moved by (4, 4) as a whole."""
+        """The deformation of the part after a ``motion`` (4, 4) of it as a whole."""
         turn, half = motion[:3, :3], 0.5 * self.space.size
         coefficients = self.of_degree(max(1, int(self.space.degree[len(self.coefficients) - 1]))).coefficients @ turn.T
         coefficients[0] += (turn - np.eye(3)) @ self.space.middle + motion[:3, 3]
@@ -147,8 +147,8 @@ class DisplacementField:
         return replace(self, coefficients=coefficients)
 
     def strains(self, components: tuple[tuple[int, int, float], ...]) -> tuple[Array, Array]:
-        """Components of Green's strain at the space's places, (s,), and their derivatives by the coefficients, (3k, s).
-        """
+        """Components of Green's strain at the space's places, (s,), and their derivatives by the coefficients, (3k, s);
+        ``components`` are pairs of directions with the root of how often each stands in the tensor."""
         slopes = self.space.slopes[:, : len(self.coefficients)]
         moved = self.space.frames + self.coefficients.T @ slopes
         values, rows = [], []

@@ -60,6 +60,7 @@ class Target:
     Attributes
     ----------
     samples : what can be seen of the faces from anywhere outside
+    everywhere : of all faces, seen or not
     even : m samples that stand for equal areas
     views : (k, 3) directions from the part to a camera
     visible : (k, m) whether a camera there sees the even sample
@@ -67,6 +68,7 @@ class Target:
     """
 
     samples: SurfaceSamples
+    everywhere: SurfaceSamples
     even: SurfaceSamples
     views: Array
     visible: NDArray[np.bool_]
@@ -84,6 +86,7 @@ class Target:
 
     @cached_property
     def tree(self) -> cKDTree:
+        """Search tree of the samples."""
         return cKDTree(self.samples.points)
 
     @cached_property
@@ -133,6 +136,11 @@ class Target:
     def spacing(self) -> float:
         """Mean distance in mm between neighbouring samples."""
         return float(np.sqrt(self.samples.area.sum() / len(self.samples.area)))
+
+    @cached_property
+    def whole(self) -> Target:
+        """The same with all of the part's surface: what can be seen has ragged borders deep inside of it."""
+        return replace(self, samples=self.everywhere)
 
     @cached_property
     def coarse(self) -> Target:
@@ -202,7 +210,7 @@ class Target:
 
 
 def kept_with_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
-    """What follows from the model alone is computed for the first scan and kept for the next ones."""
+    """What ``compute`` derives from the model alone is computed for the first scan and kept for the next ones."""
     @wraps(compute)
     def kept(target: Target) -> Result:
         if compute not in target.kept:

@@ -48,6 +48,7 @@ class Rims:
 
     @cached_property
     def tree(self) -> cKDTree:
+        """Search tree of the points."""
         return cKDTree(self.points)
 
     @cached_property

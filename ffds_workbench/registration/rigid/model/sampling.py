@@ -60,7 +60,7 @@ def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLE_COUNT) -> Targ
     kept = np.flatnonzero(exposed_rough & exposed[rough])[:_EVEN_COUNT]
     samples_seen = all_samples[exposed]
     rims = rims_of(faces, samples_seen.points, samples_seen.normals, spacing)
-    return Target(samples_seen, all_samples[rough[kept]], views, seen[:, kept], rims)
+    return Target(samples_seen, all_samples, all_samples[rough[kept]], views, seen[:, kept], rims)
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,13 @@ def gauss_newton(arm: Array, normal: Array, height: Array, weight: Array, size: 
 
     A prior of 1e-6 of the points' weight keeps directions that nothing observes at rest; a turn counts as the shift
     it makes at half the part's size.
+
+    Parameters
+    ----------
+    arm : (n, 3) of the points from the target's centre, in mm
+    normal : (n, 3) of the faces below them
+    height, weight : (n,) in mm over the faces, and how much each counts
+    size : of the part in mm
     """
     scale = np.array([2.0 / size] * 3 + [1.0] * 3)
     jacobian = twist_rows(arm, normal) * scale

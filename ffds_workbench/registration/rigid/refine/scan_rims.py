@@ -52,7 +52,7 @@ class ScanEnds:
     weight: Array
 
     def moved(self, motion: Array) -> ScanEnds:
-        """After the scan has moved on a little by (4, 4)."""
+        """After a little ``motion`` (4, 4) of the scan."""
         end = self.places + self.gap[:, None] * self.outwards
         more = np.einsum("ni,ni->n", apply(motion, end) - end, self.outwards)
         return replace(self, gap=self.gap + more)

@@ -58,7 +58,7 @@ class NearestField:
 
 @kept_with_target
 def nearest_field(target: Target) -> NearestField:
-    """The look-up table of a part and its surroundings."""
+    """The look-up table of the part that ``target`` is, and of its surroundings."""
     points, normals = target.even.points, target.even.normals
     low, high = points.min(axis=0) - _TABLE_MARGIN * target.size, points.max(axis=0) + _TABLE_MARGIN * target.size
     voxel = float((high - low).max()) / _TABLE_VOXELS

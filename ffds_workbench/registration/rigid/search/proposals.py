@@ -47,7 +47,15 @@ LOCAL_SEARCH = (SearchStage(150, 0.08, 0.05, 6, 0.04, 30, 0.08), SearchStage(600
 
 def propose(target: Target, sketch: Sketch, starts: Array, stages: Sequence[SearchStage],
             generator: np.random.Generator) -> Candidates:
-    """The most promising poses, best first."""
+    """The most promising poses, best first.
+
+    Parameters
+    ----------
+    target, sketch : the part, and even points of the scan
+    starts : (k, 4, 4) poses to start from
+    stages : of the search, coarse to fine
+    generator : draws the points that are looked at
+    """
     share = np.bincount(sketch.piece) / len(sketch.piece)
     sided = not hides_sides(target, sketch)
     pieces = max(1, int((share[:2] > _MAJOR_PIECE).sum())) if sided else 1

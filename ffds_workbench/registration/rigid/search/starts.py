@@ -21,7 +21,8 @@ _LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
 
 
 def starts_of(target: Target, sketch: Sketch, mode: str) -> Array:
-    """Poses to start from, (k, 4, 4)."""
+    """Poses of the ``sketch`` on the ``target`` to start from, (k, 4, 4): ``mode`` "fine" near the present one,
+    "global" anywhere."""
     if mode == "fine":
         rotations = turns_up_to(_LOCAL_TURN, _LOCAL_ROTATIONS)
         # the last one leaves the part where the scan is now
@@ -33,7 +34,8 @@ def starts_of(target: Target, sketch: Sketch, mode: str) -> Array:
 
 
 def starts_around(target: Target, sketch: Sketch, pose: Array) -> Array:
-    """Poses a little turned and shifted from one that may have settled beside the right one; (k, 4, 4)."""
+    """Poses a little turned and shifted from a ``pose`` (4, 4) of the ``sketch`` on the ``target`` that may have
+    settled beside the right one: (k, 4, 4)."""
     place = apply(pose, sketch.points).mean(axis=0)
     rotations = turns_up_to(_AROUND_TURN, _AROUND_ROTATIONS)
     shifts = _AROUND_SHIFT * target.size * np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
