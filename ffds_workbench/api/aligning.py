@@ -89,7 +89,7 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         cloud = as_cloud(scan)
-        target = _target_of(as_model(model).shape)
+        target = target_of_shape(as_model(model).shape)
     with watch.stage("align", "Aligning the scan"):
         found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3],
                                    mode if start is None else "local"))
@@ -117,7 +117,7 @@ def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | No
             record.write(aligned.report, temporary[1])
 
 
-def _target_of(shape: Part.Shape) -> Target:
+def target_of_shape(shape: Part.Shape) -> Target:
     """The target of a shape; that of the last shapes is kept, for the next scan of the same part."""
     for known, target in _TARGETS:
         if known.isEqual(shape):

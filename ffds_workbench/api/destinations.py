@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..brep.model_files import model_file
-from ..errors import InputError
+from ..brep.model_files import Model, model_file
+from ..errors import InputError, RefusedError
 from ..output import check_writable
 
 
@@ -15,9 +15,26 @@ def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Pat
     destinations(paths, inputs)
 
 
-def check_model_output(path: str | Path) -> None:
-    """Refuse the name of an as-built model that no exporter knows (InputError)."""
+def check_model_output(path: str | Path, nominal: Model | None = None) -> None:
+    """Refuse the name of an as-built model that no exporter knows, or whose format cannot number its edges.
+
+    Raises
+    ------
+    InputError : the format is unknown
+    RefusedError : it cannot keep the numbers that the ``nominal`` model has
+    """
     model_file.check_output(Path(path))
+    if nominal is not None:
+        model_file.check_numbers(nominal, Path(path))
+
+
+def step_keeps_numbers(nominal: Model) -> bool:
+    """Whether a STEP file can number the edges of an as-built model as the nominal one does."""
+    try:
+        model_file.check_numbers(nominal, Path("as_built.step"))
+    except RefusedError:
+        return False
+    return True
 
 
 def destinations(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:

@@ -24,6 +24,7 @@ from ..registration.request import RegistrationRequest
 from ..registration.uv_raster import Raster
 from ..report.stopwatch import Stopwatch
 from ..scan.cloud import PointCloud
+from .other_part import refuse_other_part
 from .tuning import joint_settings, robust_settings
 
 _HSU_LATTICE = (10, 10)
@@ -79,6 +80,9 @@ def find_deformation(part: Workpiece, cloud: PointCloud, request: RegistrationRe
     RefusedError : too little of the scan lies on the part, it shows something else, or a face would fold over
     """
     check_names(part, request)
+    if request.together:
+        with watch.stage("register", "Comparing the scan with the model"):
+            refuse_other_part(part, cloud)
     by_method = _all_together if request.together else _each_by_itself
     found = by_method(part, cloud, request, watch)
     refuse_folds(part, found.displacements)

@@ -20,6 +20,7 @@ from .face_displacement import FaceDisplacement
 from .folding import folded, folds_over
 from .occt_text import Locations, NewFace, PcurveReader, Rewriter, dump, parse, walk
 from .surface_fit import approximate
+from .validity import listed, newly_invalid
 from .workpiece import Workpiece, WorkpieceFace
 
 SURFACE_TOLERANCE = 2e-6
@@ -40,7 +41,7 @@ def rebuild(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement],
     Raises
     ------
     RefusedError
-        a face would fold over or tear off a face that stays, or the result is not valid although the nominal is
+        a face would fold over or tear off a face that stays, or the result is not valid where the nominal is
     """
     if not displacements:
         return workpiece.shape.copy()
@@ -59,8 +60,10 @@ def rebuild(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacement],
     rewriter = Rewriter(brep, locations, instances, geometry.faces(), edges, vertices)
     shape = Part.Shape()
     shape.importBrepFromString(dump(rewriter.text()))
-    if workpiece.shape.isValid() and not shape.isValid():
-        raise RefusedError("The rebuilt shape is not valid: the displacement is too large or too uneven for this part.")
+    worse = newly_invalid(workpiece.shape, shape)
+    if worse:
+        raise RefusedError(f"The rebuilt shape is not valid in {listed(worse)}: the displacement is too large or too "
+                           "uneven for this part.")
     return shape
 
 

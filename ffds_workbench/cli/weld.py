@@ -66,8 +66,10 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
     request = read_request(options)
     folder = make_folder(options.out)
     wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
-    result = api.run(request, *read_inputs(options, progress), progress)
-    text = write_chain(result, wanted, folder, "as_built.step", [options.model, *options.scan], progress)
+    model, scan = read_inputs(options, progress)
+    as_built = "as_built.step" if api.step_keeps_numbers(model) else "as_built.FCStd"
+    result = api.run(request, model, scan, progress)
+    text = write_chain(result, wanted, folder, as_built, [options.model, *options.scan], progress)
     return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
 
 

@@ -6,12 +6,20 @@ from typing import Any
 
 from .. import RESOURCES
 from ..compat import Stateless
+from ..objects.scans import is_scan
 from ..objects.seams import is_seams
 from . import seams_view
 
+SCAN, SCAN_POINT = (0.15, 0.45, 0.75), 2.0
+"""Colour and size (pixels) of the points of a scan."""
+
 
 def attach(item: Any, source: Any) -> None:
-    """Give a new object its view: an as-built part in its nominal part's colours, seams in those of their figures."""
+    """Give a new object its view: an as-built part in its nominal part's colours, seams in those of their figures, a
+    scan in a colour that parts do not have."""
+    if is_scan(item):
+        item.ViewObject.ShapeColor, item.ViewObject.PointSize = SCAN, SCAN_POINT
+        return
     if is_seams(item):
         seams_view.attach(item)
         return

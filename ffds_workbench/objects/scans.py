@@ -18,6 +18,7 @@ from ..brep.model_files import outer_placement
 from ..errors import InputError
 from ..scan.cloud import PointCloud
 from ..scan.normals import unit_normals
+from . import views
 
 Array = NDArray[np.float64]
 
@@ -65,6 +66,7 @@ def add_scan(document: Any, points: Array, label: str, normals: Array | None = N
     item = document.addObject("Points::Feature", "Scan")
     item.Label = label
     set_points(item, points, normals)
+    views.dress(item, None)
     item.purgeTouched()
     return item
 

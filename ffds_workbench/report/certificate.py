@@ -15,6 +15,7 @@ import Part
 
 from ..brep import topology
 from ..brep.topology import Topology
+from ..brep.validity import invalid_parts, listed
 from ..errors import RefusedError
 from ..registration.arrays import Array
 from .boolean_check import BodyErrors, boolean_checks, total
@@ -35,13 +36,17 @@ class Structure:
     Attributes
     ----------
     topology : adjacency by index
-    valid : OCCT's verdict
+    invalid : names of the sub-shapes that OCCT's check finds fault with
     closed_shells : for each shell, whether it is closed
     """
 
     topology: Topology
-    valid: bool
+    invalid: tuple[str, ...]
     closed_shells: tuple[bool, ...]
+
+    @property
+    def valid(self) -> bool:
+        return not self.invalid
 
     @property
     def closed(self) -> bool:
@@ -129,8 +134,9 @@ def broken(before: Structure, after: Structure) -> list[str]:
                  for kind in counts[0] if counts[0][kind] != counts[1][kind]]
     if not sentences and before.topology != after.topology:
         sentences.append("The order of the faces, edges or vertices changed.")
-    if not after.valid:
-        sentences.append("The shape is not valid.")
+    worse = [name for name in after.invalid if name not in before.invalid]
+    if worse:
+        sentences.append(f"The shape is not valid: {listed(worse)}.")
     if not sentences:
         opened = [i + 1 for i, (was, is_now) in enumerate(zip(before.closed_shells, after.closed_shells, strict=True))
                   if was and not is_now]
@@ -144,7 +150,7 @@ def enforce(before: Structure, after: Structure) -> None:
     Raises
     ------
     RefusedError
-        The result is not valid, lost a sub-shape, changed its order or opened.
+        The result is not valid where it was before, lost a sub-shape, changed its order or opened.
     """
     lost = broken(before, after)
     if lost:
@@ -168,13 +174,13 @@ def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None
 
 def structure(shape: Part.Shape) -> Structure:
     """What of a shape its deformation must keep."""
-    return Structure(topology.read(shape), bool(shape.isValid()), tuple(bool(s.isClosed()) for s in shape.Shells))
+    return Structure(topology.read(shape), invalid_parts(shape), tuple(bool(s.isClosed()) for s in shape.Shells))
 
 
 def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,), known: Structure | None = None) -> Condition:
     """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`, ``known`` from `structure`."""
     own = known or structure(shape)
-    return Condition(own.topology, own.valid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
+    return Condition(own.topology, own.invalid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
                      boolean_check)
 
 

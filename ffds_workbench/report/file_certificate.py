@@ -8,6 +8,7 @@ from typing import Any
 import Part
 
 from ..brep.model_files.read_back import ReadBack
+from ..brep.validity import listed
 from ..errors import RefusedError
 from .certificate import Certificate, Condition, condition
 from .meshing import Mesh, mesh
@@ -45,6 +46,10 @@ class FileCertificate:
         """One sentence for everything that is looser than the nominal shape, but closed and valid."""
         nominal, own = self.meshes
         sentences = Certificate(self.before, self.after).looser()
+        if self.before.invalid:
+            still = listed(self.after.invalid) if self.after.invalid else "nothing"
+            sentences.append(f"The nominal model is not valid in {listed(self.before.invalid)} (Part: Check geometry "
+                             f"lists why); of the as-built one {still} is not.")
         if nominal is not None and own.open_edges and not nominal.open_edges:
             sentences.append(f"The mesh of the file has {own.open_edges} open edges.")
         return sentences

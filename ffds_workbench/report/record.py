@@ -83,11 +83,12 @@ def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
 
 def sheet_record(joint: JointRegistration | None) -> Record:
     """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, strain, and how far the
-    part may be off in mm because the scan may show the other skin."""
+    part may be off in mm because the scan may show the other skin; and what turns or slides in itself."""
     if joint is None:
-        return {"thickness": None, "strain": None, "unsure": 0.0}
+        return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": []}
     thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)
-    return {"thickness": thickness, "strain": joint.strain, "unsure": joint.unsure}
+    return {"thickness": thickness, "strain": joint.strain, "unsure": joint.unsure,
+            "free_motions": list(joint.free_motions)}
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:

@@ -29,10 +29,13 @@ def _row(name: str, points: str, figures: Sequence[str]) -> str:
 
 
 def doubts(report: Mapping[str, Any]) -> str:
-    """What a registration could not tell, as a sentence; empty if there is nothing."""
-    unsure = report["sheet"]["unsure"]
-    if not unsure:
-        return ""
+    """What a registration could not tell, a sentence each; empty if there is nothing."""
+    sheet = report["sheet"]
+    free = [f"{motion}: no scan tells how far it did, and it stays where it was." for motion in sheet["free_motions"]]
+    return "\n".join([*free, *([_skin_doubt(sheet["unsure"])] if sheet["unsure"] else [])])
+
+
+def _skin_doubt(unsure: float) -> str:
     return (f"Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {unsure:.2f} "
             f"mm, and the bands say so. Scan some of its border as well, or use a scan with normals.")
 

@@ -30,7 +30,8 @@ SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress":
 """Calls that say something, and which argument it is."""
 PHRASES = {"sentences", "reason", "lost", "where", "missing", "was", "renamed", "phrases", "notes", "left_out"}
 """Variables that hold sentences, or a part of one."""
-ANSWERS = {"text", "doubts", "turn_name", "_branching", "blocked_ways", "check_verdict", "_why_failed"}
+ANSWERS = {"text", "doubts", "turn_name", "_branching", "blocked_ways", "check_verdict", "far_scan_refusal",
+           "_why_failed"}
 """Functions that return one."""
 WORDS = ("scan", "part", "faces", "edges", "vertices")
 """Words that stand where a sentence has a value."""

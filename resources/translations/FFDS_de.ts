@@ -288,10 +288,6 @@
       <translation>Kontrollpunkte in {direction}</translation>
     </message>
     <message>
-      <source>Coverage {share} %</source>
-      <translation>Abdeckung {share} %</translation>
-    </message>
-    <message>
       <source>Deform</source>
       <translation>Verformen</translation>
     </message>
@@ -314,6 +310,10 @@
     <message>
       <source>Deviations up to this are shown in one green; 0: none</source>
       <translation>Abweichungen bis hierhin erscheinen in einem Grün; 0: keine</translation>
+    </message>
+    <message>
+      <source>Distances of the scan from the faces, and the share of the faces that it shows</source>
+      <translation>Abstände des Scans von den Flächen, und der Anteil der Flächen, den er zeigt</translation>
     </message>
     <message>
       <source>Export as-built part</source>
@@ -638,6 +638,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan passt in {count} Lagen gleich gut auf das Teil, und nichts verrät, welche richtig ist. Sehen Sie sich den Scan an, oder machen Sie es rückgängig und richten Sie ihn mit drei Punkten aus.</translation>
     </message>
     <message>
+      <source>The scan shows {share} % of it</source>
+      <translation>Der Scan zeigt {share} % davon</translation>
+    </message>
+    <message>
       <source>The scan; picking a point cloud in the view or the tree chooses it as well</source>
       <translation>Der Scan; eine Punktwolke in der Ansicht oder im Baum zu wählen bestimmt ihn ebenfalls</translation>
     </message>
@@ -724,6 +728,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>no data</source>
       <translation>keine Daten</translation>
+    </message>
+    <message>
+      <source>no scan there</source>
+      <translation>dort kein Scan</translation>
     </message>
     <message>
       <source>nothing to compare</source>
@@ -1110,6 +1118,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>: {0}</translation>
     </message>
     <message>
+      <source>A STEP file would {0}: write .brep or .FCStd, which keep them.</source>
+      <translation>Eine STEP-Datei würde {0}: Schreiben Sie .brep oder .FCStd, die sie behalten.</translation>
+    </message>
+    <message>
       <source>A URScript has no numbered or named {0}s: give X,Y,Z,A,B,C instead of {1}.</source>
       <translation>Ein URScript kennt keine nummerierten oder benannten Werkzeuge und Basen ({0}): Geben Sie X,Y,Z,A,B,C statt {1} an.</translation>
     </message>
@@ -1178,6 +1190,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Kanten werden geschlossen</translation>
     </message>
     <message>
+      <source>Comparing the scan with the model</source>
+      <translation>Scan und Modell werden verglichen</translation>
+    </message>
+    <message>
       <source>Edge{0} and its faces run at different parameters: repair the shape first.</source>
       <translation>Edge{0} und ihre Flächen haben verschiedene Parameter: Reparieren Sie zuerst die Form.</translation>
     </message>
@@ -1200,6 +1216,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Every face is frozen: leave at least one face free to move.</source>
       <translation>Alle Flächen sind fixiert: Lassen Sie mindestens eine beweglich.</translation>
+    </message>
+    <message>
+      <source>Face{0} gives no triangles.</source>
+      <translation>Face{0} ergibt keine Dreiecke.</translation>
     </message>
     <message>
       <source>Face{0} has other parameters in the as-built model: use the model that register wrote.</source>
@@ -1232,10 +1252,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>KUKA controllers number tools and bases: give a number or X,Y,Z,A,B,C instead of '{0}'.</source>
       <translation>KUKA-Steuerungen nummerieren Werkzeuge und Basen: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{0}“ an.</translation>
-    </message>
-    <message>
-      <source>Line {0} of the program gives a part of a pose only, {1}: write it in full.</source>
-      <translation>Zeile {0} des Programms nennt nur einen Teil einer Lage, {1}: Schreiben Sie sie ganz aus.</translation>
     </message>
     <message>
       <source>Measuring the deviation</source>
@@ -1342,14 +1358,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die STEP-Datei ließ sich nicht schreiben: {0}.</translation>
     </message>
     <message>
-      <source>The STEP file does not hold all faces of the result: write .brep or .FCStd.</source>
-      <translation>Die STEP-Datei enthält nicht alle Flächen des Ergebnisses: Schreiben Sie .brep oder .FCStd.</translation>
-    </message>
-    <message>
-      <source>The STEP file does not read back as a valid shape: write .brep or .FCStd.</source>
-      <translation>Aus der STEP-Datei lässt sich keine gültige Form zurücklesen: Schreiben Sie .brep oder .FCStd.</translation>
-    </message>
-    <message>
       <source>The alignment '{0}' is unknown: use one of {1}.</source>
       <translation>Die Ausrichtung „{0}“ ist unbekannt: Nehmen Sie eine von {1}.</translation>
     </message>
@@ -1404,6 +1412,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The limit for {0} must be a number of at least 0, not {1}.</source>
       <translation>Die Grenze für {0} muss eine Zahl nicht unter 0 sein, nicht {1}.</translation>
+    </message>
+    <message>
+      <source>The mesh of the file has {0} open edges.</source>
+      <translation>Das Netz der Datei hat {0} offene Kanten.</translation>
     </message>
     <message>
       <source>The method '{0}' is unknown: use one of {1}.</source>
@@ -1502,6 +1514,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Bahn wird in ihrem eigenen Format mitgeführt: Nennen Sie die Ausgabe {0}.</translation>
     </message>
     <message>
+      <source>The path is damaged: it has a cell that does not end.</source>
+      <translation>Die Bahn ist beschädigt: Eine Zelle darin endet nicht.</translation>
+    </message>
+    <message>
       <source>The path is empty.</source>
       <translation>Die Bahn ist leer.</translation>
     </message>
@@ -1542,6 +1558,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
+      <source>The registration leaves {0} off its scan points, by {1} mm where the noise is {2} mm: align the scan better, or register the face by itself (--face {3}).</source>
+      <translation>Die Registrierung lässt {0} neben ihren Scanpunkten liegen, um {1} mm bei einem Rauschen von {2} mm: Richten Sie den Scan besser aus, oder registrieren Sie die Fläche für sich (--face {3}).</translation>
+    </message>
+    <message>
       <source>The repeated scans do not show the same thing: scan it again without moving it or the sensor.</source>
       <translation>Die wiederholten Scans zeigen nicht dasselbe: Scannen Sie noch einmal, ohne Gegenstand oder Sensor zu bewegen.</translation>
     </message>
@@ -1578,6 +1598,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan zeigt keine ebene Bezugsfläche: Schneiden Sie ihn auf diese zu.</translation>
     </message>
     <message>
+      <source>The scan does not show this part where it lies: {0}; choose another scan, or align it with the model.</source>
+      <translation>Der Scan zeigt dieses Teil nicht dort, wo er liegt: {0}; wählen Sie einen anderen Scan oder richten Sie ihn am Modell aus.</translation>
+    </message>
+    <message>
       <source>The scan has only {0} points: at least {1} are needed.</source>
       <translation>Der Scan hat nur {0} Punkte: Nötig sind mindestens {1}.</translation>
     </message>
@@ -1586,8 +1610,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan hat {0} Punkte: Um einen Sensor zu vermessen, braucht es mindestens {1}.</translation>
     </message>
     <message>
-      <source>The scan may show the other skin of the sheet: everything may be off by its thickness, {0} mm. Scan some of its border as well.</source>
-      <translation>Der Scan kann die andere Seite des Blechs zeigen: Alles kann um dessen Dicke, {0} mm, daneben liegen. Scannen Sie auch etwas von seinem Rand.</translation>
+      <source>The scan lies {0} mm off the part: align it with the model first.</source>
+      <translation>Der Scan liegt {0} mm neben dem Teil: Richten Sie ihn zuerst am Modell aus.</translation>
     </message>
     <message>
       <source>The scan measures {0} mm and the model {1} mm: the scan seems to be in {2}, not in {3} (use --scan-unit {4}).</source>
@@ -1604,10 +1628,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan points near {0} do not form its surface: only {1} of them agree on one; leave the face out, or check the alignment of the scan.</source>
       <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
-    </message>
-    <message>
-      <source>The scan shows one skin of a thin sheet and nothing tells which: scan some of its border as well, use a scan with normals, or align it to less than half the sheet's thickness first.</source>
-      <translation>Der Scan zeigt nur eine Seite eines dünnen Blechs, und nichts verrät, welche: Scannen Sie auch etwas vom Rand, nehmen Sie einen Scan mit Normalen, oder richten Sie ihn zuerst auf weniger als die halbe Blechdicke genau aus.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
@@ -1778,6 +1798,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Form ist leer: Wählen oder laden Sie ein Teil mit Flächen.</translation>
     </message>
     <message>
+      <source>The shape is no longer closed.</source>
+      <translation>Die Form ist nicht mehr geschlossen.</translation>
+    </message>
+    <message>
       <source>The shape is not valid.</source>
       <translation>Die Form ist ungültig.</translation>
     </message>
@@ -1826,6 +1850,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Ansichten sehen nichts vom Teil: Richten Sie sie darauf.</translation>
     </message>
     <message>
+      <source>The {0} file does not hold the model whole and was not kept: {1}</source>
+      <translation>Die {0}-Datei enthält das Modell nicht ganz und wurde nicht behalten: {1}</translation>
+    </message>
+    <message>
+      <source>The {0} file does not read back as a valid shape{1}.</source>
+      <translation>Die {0}-Datei ergibt beim Lesen keine gültige Form{1}.</translation>
+    </message>
+    <message>
+      <source>The {0} file does not read back as what was written: is the disk full?</source>
+      <translation>Die {0}-Datei ergibt beim Lesen nicht, was geschrieben wurde: Ist der Datenträger voll?</translation>
+    </message>
+    <message>
       <source>The {0} has a face or edge without a sound name, flag and band.</source>
       <translation>Der Bericht ({0}) hat eine Fläche oder Kante ohne Namen, Kennzeichen und Band.</translation>
     </message>
@@ -1850,6 +1886,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Weg „{0}“ {1} führt durch das Teil: Kürzen Sie ihn, neigen Sie den Brenner, oder schweißen Sie von einem anderen Anfang aus.</translation>
     </message>
     <message>
+      <source>There is no part: select one, or choose one in the properties.</source>
+      <translation>Es gibt kein Teil: Wählen Sie eines aus, oder wählen Sie eines in den Eigenschaften.</translation>
+    </message>
+    <message>
       <source>There is no {0}: the model has Edge1 to Edge{1}.</source>
       <translation>{0} gibt es nicht: Das Modell hat Edge1 bis Edge{1}.</translation>
     </message>
@@ -1870,8 +1910,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
+      <source>Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {0} mm, and the bands say so. Scan some of its border as well, or use a scan with normals.</source>
+      <translation>Welche Haut des Blechs der Scan zeigt, ist geraten: Alles kann um seine Dicke, {0} mm, daneben liegen, und die Bänder sagen es. Scannen Sie auch etwas von seinem Rand, oder nehmen Sie einen Scan mit Normalen.</translation>
+    </message>
+    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
+    </message>
+    <message>
+      <source>a body of revolution about the axis ({0}, {1}, {2}), the same end for end</source>
+      <translation>ein Drehkörper um die Achse ({0}, {1}, {2}), von beiden Enden her gleich</translation>
     </message>
     <message>
       <source>ambiguous ({0} poses): {1}</source>
@@ -1942,6 +1990,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>der Scan passt in mehreren Lagen gleich gut</translation>
     </message>
     <message>
+      <source>the scan fits, but shows only {0} % of the part, too little to tell this pose from others: scan more of it, or align it by three points</source>
+      <translation>der Scan passt, zeigt aber nur {0} % des Teils, zu wenig, um diese Lage von anderen zu unterscheiden: Scannen Sie mehr davon, oder richten Sie ihn an drei Punkten aus</translation>
+    </message>
+    <message>
       <source>vertices</source>
       <translation>Ecken</translation>
     </message>
@@ -1966,8 +2018,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} hat nicht die Flächen und Kanten von {1}: Berechnen Sie es zuerst neu.</translation>
     </message>
     <message>
+      <source>{0} gives a part of a pose only, {1}: write it in full.</source>
+      <translation>{0} nennt nur einen Teil einer Lage, {1}: Schreiben Sie sie ganz aus.</translation>
+    </message>
+    <message>
       <source>{0} has a lattice of {1} × {2} control points: give both numbers, or 0 for both to choose them from the data.</source>
       <translation>{0} hat ein Gitter aus {1} × {2} Kontrollpunkten: Geben Sie beide Zahlen an, oder für beide 0, dann entscheiden die Daten.</translation>
+    </message>
+    <message>
+      <source>{0} has a pose without finite numbers.</source>
+      <translation>{0} hat eine Lage ohne endliche Zahlen.</translation>
     </message>
     <message>
       <source>{0} has lost its part: choose one in its properties.</source>

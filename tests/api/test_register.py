@@ -7,7 +7,8 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench import api
+from ffds_workbench import RESOURCES, api
+from ffds_workbench.api import methods
 
 NOISE = 0.05
 
@@ -110,6 +111,21 @@ def test_progress_is_told(scan):
 def test_requests_that_cannot_be_read(scan, arguments, message):
     with pytest.raises(api.InputError, match=message):
         api.register(Part.makeBox(60, 40, 5), scan, **arguments)
+
+
+@pytest.mark.parametrize("other", ["cylinder", "shifted"])
+def test_a_scan_of_another_part_or_place_is_refused_before_the_solve(other, monkeypatch):
+    """A cylinder through the bracket of the example, and the bracket's own scan 25 mm aside."""
+    model = api.read_model(RESOURCES / "examples" / "bracket.step")
+    if other == "cylinder":
+        cylinder = Part.makeCylinder(30, 100, FreeCAD.Vector(55, 35, -20))
+        points, message = api.simulate(cylinder, api.SensorSettings(spacing=1.5)).scan.points, "not show this part"
+    else:
+        points = api.read_scan(RESOURCES / "examples" / "bracket_scan.ply").points[::4] + [0.0, 25.0, 10.0]
+        message = "mm off the part: align it"
+    monkeypatch.setattr(methods, "register_joint", lambda *_: pytest.fail("the solve was begun"))
+    with pytest.raises(api.RefusedError, match=message):
+        api.register(model, points)
 
 
 def test_an_array_of_another_shape():

@@ -139,11 +139,6 @@ def test_shapes_that_cannot_be_used_are_refused():
         model_file.from_object(Part.Shape())
     with pytest.raises(InputError, match="no faces"):
         model_file.from_object(Part.makeLine((0, 0, 0), (1, 0, 0)))
-    wire = Part.makePolygon([(0, 0, 0), (10, 0, 0), (0, 10, 0), (10, 10, 0), (0, 0, 0)])
-    bowtie = Part.Face(wire)
-    if not bowtie.isNull() and not bowtie.isValid():
-        with pytest.raises(InputError, match="not a valid shape"):
-            model_file.from_object(bowtie)
 
 
 def test_shared_parts_keep_their_faces_through_step(shared_data, tmp_path):

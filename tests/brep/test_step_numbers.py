@@ -81,7 +81,11 @@ def test_what_no_step_file_can_number_is_refused(tmp_path):
     prism = _warped(triangle.extrude(Vector(0, 0, 9)))
     with pytest.raises(RefusedError, match=r"other numbers to Face1.* and Edge2.*\.brep or \.FCStd, which keep them"):
         _written(prism, tmp_path / "prism.step")
+    with pytest.raises(RefusedError, match=r"go round Face1 in another order"):
+        model_file.check_numbers(Model(prism, "prism"), tmp_path / "prism.step")
+    model_file.check_numbers(Model(Part.makeBox(1, 2, 3), "box"), tmp_path / "box.step")
     for suffix in (".brep", ".FCStd"):
+        model_file.check_numbers(Model(prism, "prism"), tmp_path / f"prism{suffix}")
         back = model_file.write(Model(prism, "prism"), tmp_path / f"prism{suffix}")
         assert back.topology == topology.read(prism)
 

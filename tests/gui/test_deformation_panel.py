@@ -133,3 +133,16 @@ def test_a_second_result_hides_the_first_and_a_pick_on_one_means_its_nominal_par
     assert "is a result: its nominal part Plate is deformed anew" in hands.says("FfdsMessageLabel")
     hands.ok()
     assert plate_document.Objects[-1].Source is plate_document.Plate
+
+
+def test_a_scan_that_is_deleted_while_the_panel_is_open_gets_a_sentence(hands, sheet):
+    Gui.Selection.addSelection(sheet.Sheet, "Face6")
+    hands.command(DeformFaces)
+    previewed(hands)
+    sheet.removeObject("Scan")
+    hands.wait(200)
+    hands.find("FfdsWhole").click()
+    hands.wait(200)
+    assert "holds no scan" in hands.says("FfdsMessageLabel") and not hands.says("FfdsFigures")
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
+    hands.until(lambda: not Gui.Control.activeDialog(), 5)

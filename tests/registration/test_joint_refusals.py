@@ -111,7 +111,7 @@ def test_a_face_that_does_not_follow_its_points(part, scan):
         count = np.full(problem.distance.size, 5.0)
         state = replace(state, last_step=0.01, values=replace(state.values, count=count))
         if refused:
-            with pytest.raises(RefusedError, match=r"leaves Face\d 0\.8\d* mm off its scan points.*--face"):
+            with pytest.raises(RefusedError, match=r"leaves Face\d off its scan points, by 0\.8\d* mm.*--face"):
                 refuse_unsound(problem, state)
         else:
             refuse_unsound(problem, state)

@@ -8,7 +8,8 @@ import Part
 
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
-from ffds_workbench.registration.joint import register_joint
+from ffds_workbench.registration.joint import JointSettings, register_joint
+from ffds_workbench.registration.joint.problem import make_problem
 
 NOISE, DENSITY = 0.1, 12.0
 
@@ -107,3 +108,30 @@ def test_one_skin_alone_is_told_by_what_is_nearer():
             off = np.abs(face.displacement(face.uv)[:, 2] - shift)
             assert off.mean() < (0.02 if shift > -1.0 else size[2] + 0.02)
             assert (face.bands >= unsure).all()
+
+
+@pytest.mark.parametrize(("shape", "count"), [(Part.makeCylinder(15, 80).cut(Part.makeCylinder(12, 80)), 1),
+                                              (Part.makeSphere(20), 3), (Part.makeBox(40, 30, 20), 0),
+                                              (Part.makeCylinder(15, 80).cut(Part.makeBox(20, 4, 80)), 0)],
+                         ids=["pipe", "ball", "box", "keyed shaft"])
+def test_what_slides_in_itself_is_known(shape, count):
+    scan = np.random.default_rng(6).uniform(0, 40, (2000, 3))
+    assert len(make_problem(joint_part(read(shape.Solids[0])), scan, JointSettings(), {}).free_motions.texts) == count
+
+
+def test_a_pipe_stays_where_it_was_about_its_axis():
+    """Bent by a millimetre: the mean of the movement about the axis, of which no scan tells, is zero."""
+    part = joint_part(read(Part.makeCylinder(15, 80).cut(Part.makeCylinder(12, 80)).Solids[0]))
+    random = np.random.default_rng(6)
+    angle, height = random.uniform(0, 2 * np.pi, 30000), random.uniform(0, 80, 30000)
+    radius = np.where(np.arange(30000) % 3, 15.0, 12.0) + random.normal(0, 0.05, 30000)
+    scan = np.column_stack([radius * np.cos(angle) + (height / 40 - 1) ** 2, radius * np.sin(angle), height])
+    result = register_joint(part, scan)
+    assert result.free_motions == ("Solid1 turns in itself about (0.00, 0.00, 1.00)",)
+    around, along = np.linspace(0, 2 * np.pi, 40, endpoint=False), np.arange(1, 80)
+    angle, height = (grid.ravel() for grid in np.meshgrid(around, along))
+    for face, field in zip(part.faces, result.displacements, strict=True):
+        if face.kind == "Cylinder":
+            moved = field(np.column_stack([angle, height]))
+            # It turned by tenths of a millimetre; what is left is the mean over the ends.
+            assert abs((moved[:, 1] * np.cos(angle) - moved[:, 0] * np.sin(angle)).mean()) < 0.01

@@ -86,10 +86,14 @@ def test_changed_order_is_refused():
 
 def test_opened_and_invalid_shapes_are_refused():
     sound = condition(Part.makeBox(10, 20, 30))
-    for spoiled, word in ((replace(sound, closed_shells=(False,)), "closed"), (replace(sound, valid=False), "valid")):
+    for spoiled, word in ((replace(sound, closed_shells=(False,)), "closed"),
+                          (replace(sound, invalid=("Face3",)), "not valid: Face3")):
         with pytest.raises(RefusedError, match=word):
             enforce(sound, spoiled)
     enforce(replace(sound, closed_shells=(False,)), sound)
+    enforce(replace(sound, invalid=("Face2", "Face3")), replace(sound, invalid=("Face3",)))
+    with pytest.raises(RefusedError, match="not valid: Edge4"):
+        enforce(replace(sound, invalid=("Face3",)), replace(sound, invalid=("Edge4", "Face3")))
 
 
 def test_more_boolean_errors_are_a_problem():

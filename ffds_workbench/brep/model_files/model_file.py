@@ -17,7 +17,8 @@ import Part
 
 from ...errors import InputError, RefusedError
 from .. import topology
-from . import document_colours, reader, reading, step_file
+from ..validity import listed, newly_invalid
+from . import document_colours, reader, reading, step_file, step_order
 from .read_back import ReadBack, compare
 from .reader import DOCUMENT, placed_shape
 from .step_colours import Decoration
@@ -72,7 +73,7 @@ def read(path: str | Path, label: str | None = None) -> Model:
         content = reader.read(path, label)
         return _checked(path, Model(content.shape, content.label, content.decoration))
     shape, about = reading.content(path, label)
-    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])), about["valid"])
+    return _checked(path, Model(shape, about["label"], _decoration(about["decoration"])))
 
 
 def _decoration(about: Mapping[str, Any]) -> Decoration:
@@ -81,14 +82,11 @@ def _decoration(about: Mapping[str, Any]) -> Decoration:
     return Decoration(about["product"], tuple(about["solids"]), tuple(about["faces"]), colours)
 
 
-def _checked(path: Path, model: Model, valid: bool | None = None) -> Model:
-    """``valid`` tells what the check of the shape said, if it was checked before."""
+def _checked(path: Path, model: Model) -> Model:
     if model.shape.isNull():
         raise InputError(f"The model {path} holds no shape: it is damaged or empty.")
     if not model.shape.Faces:
         raise InputError(f"The model {path} has no faces: FFDS deforms the faces of a solid, shell or compound.")
-    if not (model.shape.isValid() if valid is None else valid):
-        raise InputError(f"The model {path} is not a valid shape (Part: Check geometry lists why): repair it first.")
     return model
 
 
@@ -102,6 +100,8 @@ def from_object(item: object) -> Model:
     if isinstance(item, Part.Shape):
         return _checked(Path("(shape)"), Model(item, "Shape"))
     if not hasattr(item, "Shape"):
+        if item is None:
+            raise InputError("There is no part: select one, or choose one in the properties.")
         raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part.")
     colours = ()
     if getattr(item, "ViewObject", None) is not None:
@@ -113,6 +113,15 @@ def check_output(path: Path) -> None:
     """Refuse a model format that cannot be written (InputError)."""
     if path.suffix.lower() not in OUTPUT_FORMATS:
         raise InputError(f"The output {path} is of an unknown format: use .step, .brep or .FCStd.")
+
+
+def check_numbers(nominal: Model, path: Path) -> None:
+    """Refuse a format that cannot number edges as the nominal model does, before any work is done (RefusedError)."""
+    faces = step_order.disordered(nominal.shape) if path.suffix.lower() in _STEP else ()
+    if faces:
+        names = listed([f"Face{face + 1}" for face in faces])
+        raise RefusedError(f"A STEP file cannot keep the numbers of this model's edges: they go round {names} in "
+                           f"another order than they are numbered. Write .brep or .FCStd, which keep them.")
 
 
 def write(model: Model, path: Path) -> ReadBack:
@@ -135,8 +144,10 @@ def write(model: Model, path: Path) -> ReadBack:
             raise RefusedError(f"A STEP file would {different}: write .brep or .FCStd, which keep them.")
     else:
         back = _write_exactly(model, path)
-    if model.shape.isValid() and not back.shape.isValid():
-        raise RefusedError(f"The {suffix} file does not read back as a valid shape{_OTHER[suffix in _STEP]}.")
+    worse = newly_invalid(model.shape, back.shape)
+    if worse:
+        raise RefusedError(f"The {suffix} file does not read back as a valid shape ({listed(worse)})"
+                           f"{_OTHER[suffix in _STEP]}.")
     return back
 
 

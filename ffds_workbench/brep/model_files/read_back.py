@@ -2,7 +2,6 @@
 """What a written file reads back as, compared with the shape that went into it, number by number."""
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,13 +10,12 @@ import Part
 from ...registration.arrays import Array
 from .. import topology
 from ..topology import Topology
+from ..validity import listed
 
 _QUARTERS = np.array([0.25, 0.5, 0.75])
 _SHIFT = 0.01
 """Unit: a reader may begin and end an edge elsewhere on its curve, which moves its middle by less than this share of
 its length; another edge's middle lies farther off."""
-_NAMED = 5
-"""Unit: so many numbers a sentence names."""
 
 
 @dataclass(frozen=True)
@@ -57,14 +55,9 @@ class ReadBack:
         counts = self.counts(written)
         if counts:
             return "hold " + ", ".join(counts)
-        parts = [_named(kind, indices) for kind, indices in
+        parts = [listed([f"{kind}{index + 1}" for index in indices]) for kind, indices in
                  (("Face", self.faces), ("Edge", self.edges), ("Vertex", self.vertices)) if indices]
         return f"give other numbers to {' and '.join(parts)}" if parts else ""
-
-
-def _named(kind: str, indices: Sequence[int]) -> str:
-    names = ", ".join(f"{kind}{index + 1}" for index in indices[:_NAMED])
-    return names + (f" and {len(indices) - _NAMED} more" if len(indices) > _NAMED else "")
 
 
 def compare(suffix: str, shape: Part.Shape, written: Topology, back: Part.Shape) -> ReadBack:

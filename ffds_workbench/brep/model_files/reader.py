@@ -53,8 +53,7 @@ def write(content: FileContent, folder: Path) -> None:
     """Write what was read as ``shape.bin`` and ``about.json``, as `reading` takes it up."""
     if not content.shape.isNull():
         content.shape.exportBinary(str(folder / "shape.bin"))
-    about = {"label": content.label, "decoration": asdict(content.decoration),
-             "valid": not content.shape.isNull() and content.shape.isValid()}
+    about = {"label": content.label, "decoration": asdict(content.decoration)}
     (folder / "about.json").write_text(json.dumps(about), "utf-8")
 
 

@@ -49,6 +49,14 @@ def ordered(shape: Part.Shape) -> Part.Shape:
     return result
 
 
+def disordered(shape: Part.Shape) -> tuple[int, ...]:
+    """Indices of the faces round which the edges go in an order that is neither that of their numbers nor its reverse.
+
+    A loop of a STEP file goes round in order: it cannot number them so.
+    """
+    return _Arrangement(parse(shape.exportBrepToString())).disordered()
+
+
 class _Arrangement:
     """What has to be turned, by position of the shape in the text; the first place where a shape stands decides.
 
@@ -95,11 +103,27 @@ class _Arrangement:
                 self._arrange(face, met)
             met.update(use.edge for use in uses)
 
-    def _arrange(self, face: Instance, met: set[int]) -> None:
+    def disordered(self) -> tuple[int, ...]:
+        """The faces whose loops begin nowhere as they should, along the face or against it."""
+        met: set[int] = set()
+        found = []
+        for index, face in enumerate(self._instances.faces):
+            loops = self._loops(face)
+            against = [backwards(loop) for loop in loops]
+            if not any(map(self._is_whole, loops)) and None is self._begun(loops, met) is self._begun(against, met):
+                found.append(index)
+            met.update(use.edge for loop in loops for use in loop)
+        return tuple(found)
+
+    def _loops(self, face: Instance) -> list[Loop]:
+        """The loops of a face in order, none of them where one has no order."""
         wires = [child for child in self.brep.shapes[face.shape].children if self.brep.shapes[child.shape].kind == "Wi"]
-        as_stored = [self._loop(face, wire) for wire in wires]
-        loops = [self._chained(face.shape, loop) for loop in as_stored]
-        if not all(loops):
+        loops = [self._chained(face.shape, self._loop(face, wire)) for wire in wires]
+        return [loop for loop in loops if loop] if all(loops) else []
+
+    def _arrange(self, face: Instance, met: set[int]) -> None:
+        loops = self._loops(face)
+        if not loops:
             return
         number = self._surface(face.shape).surface
         surface = read_surface(self.brep.surfaces[number - 1]) if self._users[number] == 1 else None
@@ -150,7 +174,8 @@ class _Arrangement:
         if in_order(loop, self._ends):
             return loop
         uv = [self._uv(face, use) for use in loop]
-        return chained(loop, self._ends, np.array(uv)) if all(ends is not None for ends in uv) else None
+        known = all(ends is not None for ends in uv)
+        return chained(loop, self._ends, np.array(uv) if known else np.zeros((len(loop), 2, 2)))
 
     def _uv(self, face: int, use: LoopEdge) -> Array | None:
         """Where a use begins and ends in the face's (u, v): (2, 2)."""

@@ -19,9 +19,14 @@ from .show_deviation import ShowDeviation
 from .show_lattice import ShowLattice
 from .simulate_scan import SimulateScan
 
-COMMANDS = (ImportScan, AlignScan, AlignByPoints, DeformFaces, DeformWorkpiece, ShowDeviation, ShowLattice,
-            SimulateScan, RepointReferences, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory, LoadExample)
-TOOLBAR = [command.NAME for command in COMMANDS]
+GROUPS = ((ImportScan, SimulateScan, AlignScan, AlignByPoints),
+          (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
+          (ShowDeviation,),
+          (FindSeams, ExportProgram, AddTrajectory),
+          (LoadExample,))
+"""Scan, deform, inspect, weld, and the example: parted by lines in menu and toolbar."""
+COMMANDS = tuple(command for group in GROUPS for command in group)
+TOOLBAR = [name for group in GROUPS for name in (*(command.NAME for command in group), "Separator")][:-1]
 CONTEXT = [command.NAME for command in (
     DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
     ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]

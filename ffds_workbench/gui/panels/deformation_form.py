@@ -2,7 +2,7 @@
 """The widgets of the deformation panel: what they show, and the settings they stand for."""
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ...errors import InputError
@@ -11,7 +11,7 @@ from ..preferences import preferences
 from ..qt import QtCore, QtWidgets
 from ..translating import tr
 from ..widgets import Form, ProgressBar, choice, folded, length, named, spin, wrapped
-from .legend import Legend
+from .findings import Findings
 from .stiffness_slider import StiffnessSlider
 
 _WIDEST = 40
@@ -73,15 +73,10 @@ class DeformationForm(Form):
         self._result = choice("FfdsResult", [(tr("Part beside it"), False), (tr("Replace in place"), True)],
                               tr("An as-built part beside the nominal one follows it and the scan; replacing is for "
                                  "plain shapes without a history"))
-        self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
-        self._message.setStyleSheet("color: #b3401f")
-        self._other_side = named(QtWidgets.QPushButton(), "FfdsOtherSide",
-                                 tr("Deform the face on the side of the sheet that the scan shows"))
-        self._take_other_side: Callable[[], None] | None = None
-        self._legend = named(Legend(), "FfdsLegend", tr("Deviation of the scan from the deformed faces"))
+        self.found = Findings()
         self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._doing = wrapped("FfdsDoing")
-        for widget in (self._progress, self._doing, self._other_side):
+        for widget in (self._progress, self._doing):
             widget.setVisible(False)
 
     def _size(self, direction: str) -> tuple[Any, Any]:
@@ -113,7 +108,7 @@ class DeformationForm(Form):
                               (tr("Freeze"), _beside(self._freeze, self._pick_frozen)), (tr("Result"), self._result)):
             form.addRow(label, widget)
         column.addWidget(folded(tr("More"), "FfdsMore", more))
-        for widget in (self._figures, self._legend, self._message, self._other_side, self._doing, self._progress):
+        for widget in (self.found, self._doing, self._progress):
             column.addWidget(widget)
 
     def _connect(self) -> None:
@@ -124,7 +119,6 @@ class DeformationForm(Form):
         for widget in (self._source_points, self._gate, *(box for box, _ in self._sizes)):
             widget.valueChanged.connect(self._emit)
         self._stiffness.changed.connect(self._emit)
-        self._other_side.clicked.connect(lambda: self._take_other_side and self._take_other_side())
         self._freeze.editingFinished.connect(self._emit)
         for box, slider in self._sizes:
             box.valueChanged.connect(lambda value, slider=slider: _move(slider, value))
@@ -235,39 +229,13 @@ class DeformationForm(Form):
         self._part.setText(f"<b>{part}</b> {', '.join(faces)}" if part else
                            f"<i>{tr('pick faces in the 3D view')}</i>")
 
-    def say(self, sentence: str) -> None:
-        """Show a sentence below the settings."""
-        self._message.setText(sentence)
-        self._message.setVisible(bool(sentence))
-
-    def offer(self, face: str, take: Callable[[], None]) -> None:
-        """Offer to take another face, until the next figures or sentence."""
-        self._take_other_side = take
-        self._other_side.setText(tr("Take {face} instead").format(face=face))
-        self._other_side.setVisible(True)
-
-    def show_figures(self, figures: tuple | None, sentence: str, after: Any = None, limit: float = 1.0) -> None:
-        """Show (mean, p95 before; mean, p95 after; coverage), or a sentence instead."""
-        self._other_side.setVisible(False)
-        self._legend.setVisible(figures is not None)
-        self._figures.setVisible(figures is not None)
-        self.say(sentence)
-        if figures is None:
-            return
-        rows = "".join(f"<tr><td>{name}</td><td align='right'>{mean:.3f}</td>"
-                       f"<td align='right'>{p95:.3f}</td></tr>"
-                       for name, mean, p95 in ((tr("before"), *figures[:2]), (tr("after"), *figures[2:4])))
-        self._figures.setText(
-            f"<table width='100%'><tr><td>{tr('Deviation')},&nbsp;mm</td><td align='right'>{tr('mean')}</td>"
-            f"<td align='right'>95&nbsp;%</td></tr>"
-            f"{rows}</table>" + tr("Coverage {share} %").format(share=f"{100 * figures[4]:.0f}"))
-        self._legend.show_deviations(after, limit)
-
     def show_progress(self, text: str) -> None:
         """Say what is being done, nothing for no work."""
-        self._doing.setText(f"{text} …")
-        self._progress.setValue(0 if not text else self._progress.value())
-        self._progress.step()
+        if text:
+            self._doing.setText(f"{text} …")
+            self._progress.step()
+        else:
+            self._progress.setValue(0)
         self._doing.setVisible(bool(text))
         self._progress.setVisible(bool(text))
 

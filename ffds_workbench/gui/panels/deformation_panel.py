@@ -167,7 +167,7 @@ class DeformationPanel:
             if self._wished.preview:
                 self._runner.ask(job)
             else:
-                self.form.show_figures(None, self._hint)
+                self.form.found.show_figures(None, self._hint)
         except FfdsError as refusal:
             self._runner.stop()
             self._draw_nothing(refusal)
@@ -183,13 +183,13 @@ class DeformationPanel:
             return
         self._clear(self._hint or said(str(failure)))
         if isinstance(failure, OtherSideError):
-            self.form.offer(failure.shown, lambda: self._take_other_side(failure))
+            self.form.found.offer(failure.shown, lambda: self._take_other_side(failure))
 
     def _clear(self, sentence: str) -> None:
         """Draw nothing, and say why."""
         self._overlay.show([])
         self._overlay.cover()
-        self.form.show_figures(None, sentence)
+        self.form.found.show_figures(None, sentence)
 
     def _take_other_side(self, refused: OtherSideError) -> None:
         """Deform the face that the scan shows instead of the one on the other side of its sheet."""
@@ -201,13 +201,14 @@ class DeformationPanel:
     def _draw(self, job: Job, patches: list[Patch]) -> None:
         if not self._watching:
             return
-        limit = good_limit(np.concatenate([patch.before for patch in patches]))
+        after = np.concatenate([patch.after for patch in patches])
+        limit = good_limit(after)
         self._overlay.cover(*self._covered(job))
         self._drawing.show(job.source.model.shape, patches, job.request.freeze, limit, self._wished.lattice,
                            job.source.T_document_part)
         if job.request.faces is not None:
             self.form.show_size(patches[0].size)
-        self.form.show_figures(figures(patches), self._hint, np.concatenate([patch.after for patch in patches]), limit)
+        self.form.found.show_figures(figures(patches), self._hint, after, limit)
 
     def _covered(self, job: Job) -> list[Any]:
         """What would hide the preview: the scan, the part and, when it is being changed, the as-built part."""

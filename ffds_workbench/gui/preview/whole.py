@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...api.other_part import refuse_other_part
 from ...api.tuning import joint_settings
 from ...brep.joint_part import joint_part
 from ...brep.workpiece import Workpiece
@@ -22,9 +23,10 @@ Found = list[tuple[FaceOnScan, Deviations, SplineSurface, float]]
 
 
 class WholePreview:
-    """All faces of a part on a scan in its frame."""
+    """All faces of a part on a scan in its frame (RefusedError where it shows another part)."""
 
     def __init__(self, part: Workpiece, scan: PointCloud) -> None:
+        refuse_other_part(part, scan)
         self._part, self._scan = part, scan
         some = scan.points[np.random.default_rng(0).permutation(len(scan.points))[:_LOOKED_AT]]
         self._few = [FaceOnScan(part.geometry(index), some) for index in range(len(part.faces))]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pivy import coin
 
 from ...objects.seams import FIGURES, stations_of, wishes_of
+from ..qt import QtWidgets
 from ..translating import tr
 from .colours import NO_DATA, packed_colours
 from .overlay import mesh_node
@@ -96,6 +97,7 @@ def _legend(title: str, entries: list[Entry]) -> Any:
     base.rgb.setValue(*_INK)
     front.addChild(base)
     font = coin.SoFont()
+    font.name = QtWidgets.QApplication.font().family()
     font.size = 14.0
     front.addChild(font)
     front.addChild(_words(title, _LEFT, float(low[-1] + 1.5 * _TALL)))

@@ -99,6 +99,7 @@ class JointRegistration:
     last_step : largest change of a surface point in mm in the last step
     used : number of scan points that carry weight
     unsure : thickness in mm of a sheet of which the scan may show the other skin, contained in the bands; mostly 0
+    free_motions : along which solids slide in themselves and stay where they were, one phrase each
     """
 
     displacements: tuple[SplineSurface, ...]
@@ -111,6 +112,7 @@ class JointRegistration:
     last_step: float
     used: int
     unsure: float = 0.0
+    free_motions: tuple[str, ...] = ()
 
     @property
     def faces(self) -> tuple[JointFace, ...]:

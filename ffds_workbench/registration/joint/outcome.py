@@ -74,8 +74,9 @@ def _refuse_off_scan(problem: Problem, state: State) -> None:
     worst = int(np.argmax(after)) if len(after) else 0
     if len(after) and after[worst] > max(_OFF_IN_NOISES * max(noise, _NEGLIGIBLE * problem.size), _OFF_SHARE * before):
         name = problem.part.faces[judged[worst]].name
-        raise RefusedError(f"The registration leaves {name} {after[worst]:.2g} mm off its scan points, whose noise is "
-                           f"{noise:.2g} mm: align the scan better, or register the face by itself (--face {name}).")
+        raise RefusedError(f"The registration leaves {name} off its scan points, by {after[worst]:.2g} mm where the "
+                           f"noise is {noise:.2g} mm: align the scan better, or register the face by itself (--face "
+                           f"{name}).")
 
 
 def _all_matched(problem: Problem, control_points: Array, reach: float) -> Correspondence:
@@ -115,7 +116,7 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
         solids=tuple(_solid_motion(problem, position, solid) for solid in problem.part.solids),
         thickness=_thickness(problem, state), strain=observed_strain(problem, state), isometric=is_isometric(state),
         iterations=state.iterations, last_step=state.last_step, used=int(state.values.count.sum()),
-        unsure=state.unsure)
+        unsure=state.unsure, free_motions=problem.free_motions.texts)
 
 
 def _thickness(problem: Problem, state: State) -> tuple[float | None, ...]:

@@ -13,6 +13,7 @@ from ...errors import RefusedError
 from ..arrays import Array, Index
 from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
+from .free_motions import FreeMotions, find_free_motions
 from .linear import Pattern
 from .lengths import Lengths, find_lengths
 from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
@@ -57,6 +58,7 @@ class Problem:
     constant : rows that are the same at every shape
     sides : where the faces lie at their edges
     lengths : of the solve
+    free_motions : of solids in themselves, of which no scan tells
     distance_to_nominal : (n,) of the points of the sample, in mm; infinite beyond the size of the part
     margin : (spans,) distance from the border that scan points must keep, in mm
     """
@@ -77,6 +79,7 @@ class Problem:
     sides: EdgeSides
     margin: Array
     lengths: Lengths
+    free_motions: FreeMotions
     distance_to_nominal: Array
     sample_normals: Array | None = None
 
@@ -151,11 +154,11 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     distance = distance_to_trims(part.faces, lattices, cells)
-    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance,
-                   np.where(cells.inside, area, 0.0), stiffness, couplings, pattern,
-                   constant_rows(pattern, stiffness, couplings),
-                   edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths, apart,
+    area = np.where(cells.inside, area, 0.0)
+    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
+                   pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths,
+                   find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 
 

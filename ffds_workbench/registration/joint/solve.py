@@ -152,6 +152,10 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
         add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
     near = stage.bending > _FACTOR_LASTS * cache.factor_bending
     step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, cache.factor, near)
+    free = problem.free_motions
+    if free.texts:
+        step = free.hold(state.control_points, step, np.array([factor.solve(row.ravel()).reshape(-1, 3)
+                                                                for row in free.rows]))
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
     last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,

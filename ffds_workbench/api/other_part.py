@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether a scan shows another part than the model, or lies elsewhere: told before a solve wanders for minutes."""
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+import Part
+from scipy.spatial import cKDTree
+
+from ..brep.workpiece import Workpiece
+from ..errors import RefusedError
+from ..registration.arrays import Array
+from ..registration.rigid import FAILED, align
+from ..registration.uv_raster import make_raster
+from ..scan.cloud import PointCloud
+from .aligning import target_of_shape
+
+_LARGEST_DEFORMATION = 0.05
+"""Of the part's size (a physical assumption): what a part is deformed by is less than a twentieth of its size."""
+_UNEXPLAINED_SHARE = 0.25
+"""Share of the scan beyond that from which the alignment is asked (theory: where three quarters lie on the part, the
+solve holds; what else is in the scan is clutter)."""
+_SAMPLE, _CELLS = 4000, 256
+"""Scan points that are looked at, and places on each face: a twentieth of its size apart or nearer."""
+_known: deque[tuple[Part.Shape, Array, str]] = deque(maxlen=4)
+
+
+def refuse_other_part(part: Workpiece, cloud: PointCloud) -> None:
+    """Refuse a scan of which much lies far from the part, if no pose nearby explains it.
+
+    Raises
+    ------
+    RefusedError : the scan is one of another part, or has to be aligned first
+    """
+    some = np.random.default_rng(0).permutation(len(cloud.points))[:_SAMPLE]
+    rasters = [make_raster(part.geometry(index), _CELLS) for index in range(len(part.faces))]
+    places = np.concatenate([raster.position[raster.inside] for raster in rasters])
+    far = _LARGEST_DEFORMATION * float(np.linalg.norm(np.ptp(places, axis=0)))
+    distance, _ = cKDTree(places).query(cloud.points[some], distance_upper_bound=far)
+    if np.isinf(distance).mean() <= _UNEXPLAINED_SHARE:
+        return
+    for shape, points, sentence in _known:
+        if shape.isEqual(part.shape) and np.array_equal(points, cloud.points[some]):
+            break
+    else:
+        sentence = far_scan_refusal(part.shape, cloud, far)
+        _known.append((part.shape, cloud.points[some], sentence))
+    if sentence:
+        raise RefusedError(sentence)
+
+
+def far_scan_refusal(shape: Part.Shape, cloud: PointCloud, far: float) -> str:
+    """Why the scan cannot be used as it lies; empty where it can."""
+    found = align(target_of_shape(shape), cloud.points, "fine")
+    if found.verdict == FAILED:
+        return (f"The scan does not show this part where it lies: {found.reason}; choose another scan, or align it "
+                f"with the model.")
+    moved = cloud.points @ found.T_model_scan[:3, :3].T + found.T_model_scan[:3, 3] - cloud.points
+    off = float(np.median(np.linalg.norm(moved, axis=1)))
+    return f"The scan lies {off:.3g} mm off the part: align it with the model first." if off > far else ""
