@@ -176,13 +176,13 @@ def _models(folder: Path) -> list[Path]:
 
 
 def _primitives(folder: Path) -> list[Path]:
-    """FreeCAD's own shapes, numbered as FreeCAD makes them; files that are there are kept."""
+    """FreeCAD's own shapes as STEP files, which number them anew; those that are there are kept."""
     folder.mkdir(exist_ok=True)
     paths = []
     tubes = {"tube": Part.makeCylinder(30, 200).cut(Part.makeCylinder(27, 200)),
              "hollow section": Part.makeBox(60, 40, 150).cut(Part.makeBox(54, 34, 150, Vector(3, 3, 0)))}
     for name, shape in (*topology_shapes.primitives(), *tubes.items()):
-        paths.append(folder / f"{name.replace(' ', '_')}.brep")
+        paths.append(folder / f"{name.replace(' ', '_')}.step")
         if not paths[-1].is_file():
-            shape.exportBrep(str(paths[-1]))
+            shape.exportStep(str(paths[-1]))
     return paths
