@@ -10,7 +10,7 @@ import numpy as np
 import Part
 
 from ..brep.model_files import Model, model_file
-from ..brep.surface_samples import surface_samples
+from ..brep.simulated_scan import surface_samples
 from ..errors import InputError
 from ..registration.request import RegistrationRequest
 from ..scan import sensor_profile

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scans of a Part shape by the virtual sensor, and their ground truth."""
+"""Scans of a Part shape by the virtual sensor, and their ground truth; points spread over a shape."""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -13,6 +13,10 @@ from ..scan.sensor import Scene, SensorSettings, SimulatedScan, Truth, make_trut
 from ..scan.sensor.target import Displace
 from ..scan.sensor.truth import EDGE_SAMPLES
 from . import workpiece
+
+_SURFACE_SAMPLES = 20_000
+_SAG = 0.002
+"""Largest distance of the triangles from the shape, as a part of its size: far below what is taken to lie on it."""
 
 
 @dataclass(frozen=True)
@@ -56,3 +60,17 @@ def edge_points(shape: Part.Shape, count: int = EDGE_SAMPLES) -> Array:
         else:
             lines.append([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, count)])
     return np.array(lines).reshape(-1, count, 3)
+
+
+def surface_samples(shape: Part.Shape) -> tuple[Array, Array]:
+    """Points (n, 3) in mm on the triangles of a shape, as many on each as it is large, and unit normals (n, 3)."""
+    vertices, triangles = shape.copy().tessellate(_SAG * shape.BoundBox.DiagonalLength)  # the shape keeps no mesh
+    a, b, c = np.array([tuple(vertex) for vertex in vertices])[np.array(triangles)].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    random = np.random.default_rng(0)
+    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), random.random(_SURFACE_SAMPLES)).clip(max=len(areas) - 1)
+    weights = random.random((_SURFACE_SAMPLES, 2))
+    weights = np.where(weights.sum(axis=1, keepdims=True) > 1.0, 1.0 - weights, weights)
+    points = a[chosen] + weights[:, :1] * (b - a)[chosen] + weights[:, 1:] * (c - a)[chosen]
+    return points, normals[chosen] / np.maximum(areas[chosen, None], 1e-300)

@@ -9,7 +9,7 @@ import pytest
 
 from ffds_workbench import RESOURCES, api
 from ffds_workbench.brep.model_files import model_file, step_colours
-from ffds_workbench.brep.surface_samples import surface_samples
+from ffds_workbench.brep.simulated_scan import surface_samples
 from ffds_workbench.errors import FfdsError, InputError
 from ffds_workbench.registration.rigid.unit_mismatch import FACTORS, unit_mismatch
 

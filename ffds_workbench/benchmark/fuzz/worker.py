@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...brep.surface_samples import surface_samples
+from ...brep.simulated_scan import surface_samples
 from ...errors import FfdsError
 from ...registration.arrays import Array
 from ...scan import files
