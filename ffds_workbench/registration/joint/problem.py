@@ -117,9 +117,12 @@ class Problem:
         return self.sheet_of_span > 0
 
     @cached_property
-    def skin_blocks(self) -> NDArray[np.bool_]:
-        """Whether a block of the pattern belongs to the skin of a sheet: (size,)."""
-        return (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
+    def skin_runs(self) -> list[tuple[bool, int, int]]:
+        """Blocks of the pattern from a first to a last one that belong to skins of sheets, or to other faces."""
+        skin = (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
+        starts = np.flatnonzero(np.diff(skin, prepend=~skin[:1]))
+        ends = np.append(starts[1:], len(skin))
+        return list(zip(skin[starts].tolist(), starts.tolist(), ends.tolist(), strict=True))
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
