@@ -22,8 +22,8 @@ body                    d − kriging's mean, mm                        inverse 
 ======================= ============================================= ==============================================
 
 The variances σ² and τ² are estimated anew in every step, from differences of neighbours that the shape does not enter;
-the trusts are ratios of the expected cost of a prior to what it costs (`prior_trust.py`); the scale of Tukey's loss only
-falls. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
+the trusts are ratios of the expected cost of a prior to what it costs (`prior_trust.py`); the scale of Tukey's loss
+only falls. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
 """
 from __future__ import annotations
 
