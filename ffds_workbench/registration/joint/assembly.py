@@ -92,9 +92,10 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     blocks = problem.constant.weighted(weight, trust.sliding, trust.shear, trust.dihedral)
-    blocks = blas.daxpy(across.blocks.ravel(), blocks.ravel(), a=trust.thickness - trust.shear).reshape(-1, 3, 3)
+    _add_scaled(blocks, across.blocks, trust.thickness - trust.shear, 0, len(blocks))
     skin, wall = problem.isometry_weights(trust)
-    blocks += np.where(problem.skin_blocks, skin, wall)[:, None, None] * strained
+    for is_skin, first, last in problem.skin_runs:
+        _add_scaled(blocks, strained, skin if is_skin else wall, first, last)
     bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
     right = (weight * gather(problem, load)
@@ -106,6 +107,11 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
                                                    stress))
     return NormalEquations(blocks, right)
+
+
+def _add_scaled(blocks: Array, others: Array, scale: float, first: int, last: int) -> None:
+    """Add a multiple of some of other blocks to blocks (n, 3, 3), in place: fresh memory would take longer."""
+    blas.daxpy(others.ravel(), blocks.ravel(), n=9 * (last - first), a=scale, offx=9 * first, offy=9 * first)
 
 
 def strain_blocks(problem: Problem, control_points: Array) -> Array:
