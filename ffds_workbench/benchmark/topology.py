@@ -21,7 +21,8 @@ from ..api.registering import SURFACE_TOLERANCE as LOCAL_TOLERANCE
 from ..brep import topology, workpiece
 from ..brep.continuity import local_displacements
 from ..brep.face_displacement import FaceDisplacement
-from ..brep.model_files import model_file
+from ..brep.model_files import step_file
+from ..brep.model_files.step_colours import Decoration
 from ..brep.rebuild import SURFACE_TOLERANCE, rebuild
 from ..brep.workpiece import Workpiece
 from ..errors import FfdsError
@@ -179,15 +180,16 @@ def _deviation(part: Workpiece, result: Part.Shape) -> float:
 
 
 def _read_back(shape: Part.Shape) -> Part.Shape | None:
-    """What the shape's STEP file reads back as, if that has the same sub-shapes and is valid."""
+    """What the shape's STEP file reads back as, if that has as many sub-shapes and is valid.
+
+    Under the same numbers only what a STEP file was once read for: FreeCAD stores loops that STEP cannot say.
+    """
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "shape.step"
         try:
-            model_file.write(model_file.Model(shape, "shape"), path)
+            back = step_file.write(shape, Decoration(product="shape"), Path(folder) / "shape.step")
         except FfdsError:
             return None
-        back = Part.read(str(path))
-    return back if topology.read(back).counts == topology.read(shape).counts else None
+    return back.shape if not back.counts(topology.read(shape)) and back.shape.isValid() else None
 
 
 def _tables(rows: list[Row | Refused]) -> list[Table]:

@@ -83,12 +83,13 @@ def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
 
 def sheet_record(joint: JointRegistration | None) -> Record:
     """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, strain, and how far the
-    part may be off in mm because the scan may show the other skin; and what turns or slides in itself."""
+    part may be off in mm because the scan may show the other skin; what turns or slides in itself, and faces that are
+    carried because they did not come to rest."""
     if joint is None:
-        return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": []}
+        return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": [], "torn": []}
     thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)
     return {"thickness": thickness, "strain": joint.strain, "unsure": joint.unsure,
-            "free_motions": list(joint.free_motions)}
+            "free_motions": list(joint.free_motions), "torn": list(joint.torn)}
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:

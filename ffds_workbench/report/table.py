@@ -32,7 +32,9 @@ def doubts(report: Mapping[str, Any]) -> str:
     """What a registration could not tell, a sentence each; empty if there is nothing."""
     sheet = report["sheet"]
     free = [f"{motion}: no scan tells how far it did, and it stays where it was." for motion in sheet["free_motions"]]
-    return "\n".join([*free, *([_skin_doubt(sheet["unsure"])] if sheet["unsure"] else [])])
+    torn = [f"{name} fits its scan points in more than one place: it is carried by its neighbours, not registered."
+            for name in sheet["torn"]]
+    return "\n".join([*free, *torn, *([_skin_doubt(sheet["unsure"])] if sheet["unsure"] else [])])
 
 
 def _skin_doubt(unsure: float) -> str:

@@ -74,13 +74,13 @@ def test_a_whole_session(hands, files):
     hands.pick((20, 12, 5.0))
     assert Gui.Selection.getSelectionEx()[0].SubElementNames == ("Face6",)
     hands.choose("FFDS", "Deform faces to scan…")
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     hands.wait(800)
-    exact, drawn = hands.find("FfdsFigures").text(), hands.drawn()
+    exact, drawn = hands.says("FfdsFigures"), hands.drawn()
     hands.check("FfdsAutomatic")
     slider = hands.find("FfdsControlPointsUSlider")
     QtTest.QTest.keyClick(slider, QtCore.Qt.Key_Home)  # too few control points for the bump
-    hands.until(lambda: hands.find("FfdsFigures").text() != exact and hands.drawn() != drawn, 5)
+    hands.until(lambda: hands.says("FfdsFigures") != exact and hands.drawn() != drawn, 5)
     for _ in range(9):
         QtTest.QTest.keyClick(slider, QtCore.Qt.Key_Right)
         hands.wait(20)

@@ -48,7 +48,7 @@ def deform(hands, document) -> object:
     hands.pick((20, 12, 5.0))
     document.Scan.Visibility = True
     hands.command(DeformFaces)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 10)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 10)
     hands.ok()
     return document.AsBuilt
 
@@ -74,17 +74,17 @@ def test_the_preview_follows_the_lattice_and_cancel_leaves_nothing(hands, plate_
     Gui.Selection.addSelection(plate_document.Scan)
     Gui.Selection.addSelection(plate_document.Plate, "Face6")
     hands.until(lambda: "Face6" in hands.find("FfdsPart").text(), 5)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 10)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 10)
     hands.check("FfdsAutomatic")
-    texts = [hands.find("FfdsFigures").text()]
+    texts = [hands.says("FfdsFigures")]
     for count in (4, 9):
         box = hands.find("FfdsControlPointsU")
         box.setFocus()
         box.selectAll()
         QtTest.QTest.keyClicks(box, str(count))
         QtTest.QTest.keyClick(box, QtCore.Qt.Key_Tab)
-        hands.until(lambda: hands.find("FfdsFigures").text() not in texts, 10)
-        texts.append(hands.find("FfdsFigures").text())
+        hands.until(lambda: hands.says("FfdsFigures") not in texts, 10)
+        texts.append(hands.says("FfdsFigures"))
     assert hands.nodes() == nodes + 1
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Cancel))
     hands.until(lambda: not Gui.Control.activeDialog(), 5)
@@ -189,13 +189,13 @@ def test_the_deviation_map_comes_and_goes(hands, plate_document):
     Gui.Selection.addSelection(item)
     hands.command(ShowDeviation)
     hands.until(Gui.Control.activeDialog, 30)
-    after = hands.find("FfdsFigures").text()
+    after = hands.says("FfdsFigures")
     for name in ("FfdsState", "FfdsOn"):
         box = hands.find(name)
         box.setFocus()
         QtTest.QTest.keyClick(box, QtCore.Qt.Key_Down)
         hands.wait(300)
-    assert hands.find("FfdsFigures").text() != after and hands.nodes() == nodes + 1
+    assert hands.says("FfdsFigures") != after and hands.nodes() == nodes + 1
     hands.pick((30, 20, 6.0))
     assert "mm" in hands.find("FfdsCursor").text()
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
@@ -241,7 +241,7 @@ def test_a_recorded_session_replays_without_a_gui(hands, tmp_path):
     document = FreeCAD.ActiveDocument
     Gui.Selection.addSelection(document.Bracket, "Face9")
     hands.command(DeformFaces)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     hands.ok()
     volume = document.AsBuilt.Shape.Volume
     for line in console.toPlainText()[before:].splitlines():
@@ -322,7 +322,7 @@ def test_pictures_of_the_readme(hands):
     hands.screenshot("example")
     Gui.Selection.addSelection(document.Bracket, "Face9")
     hands.command(DeformFaces)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     hands.click(hands.find("FfdsMore"))
     hands.wait(2000)
     hands.screenshot("panel")
@@ -338,7 +338,7 @@ def test_pictures_of_the_readme(hands):
     Gui.Selection.addSelection(document.Bracket)
     hands.command(DeformWorkpiece)
     view.setCameraOrientation(FreeCAD.Rotation(35, 0, 55).Q)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 60)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 60)
     hands.wait(500)
     hands.until(lambda: not hands.says("FfdsDoing"), 120)
     hands.screenshot("whole")

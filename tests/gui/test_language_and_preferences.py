@@ -65,7 +65,7 @@ def german():
 def test_the_window_speaks_german(hands, plate_document, german):
     Gui.Selection.addSelection(plate_document.Plate, "Face6")
     hands.command(DeformFaces)
-    hands.until(lambda: "Abweichung" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "Abweichung" in hands.says("FfdsFigures"), 20)
     assert hands.find("FfdsWhole").text() == "Ganzes Teil"
     hands.screenshot("german")
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Ok))

@@ -71,7 +71,7 @@ def test_it_is_deformed_where_it_stands(hands, plate, make):
     look_from_above(hands)
     hands.pick(tuple(place.multVec(FreeCAD.Vector(20, 12, 5))))
     hands.command(DeformFaces)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     hands.ok()
     made = document.getObject("AsBuilt")
     assert made.Source is item and made.isValid() and made.MeanAfter.Value < TOLERANCE

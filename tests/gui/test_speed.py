@@ -64,7 +64,7 @@ def test_a_face_follows_the_slider(hands, bracket):
     document = bracket(100_000)
     Gui.Selection.addSelection(document.Bracket, "Face9")
     hands.command(DeformFaces)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 20)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     slider = hands.find("FfdsStiffness")
     steps = []
     for _ in range(10):
@@ -84,7 +84,7 @@ def test_a_whole_part_follows_the_slider_and_freecad_answers_while_it_computes(h
     document = bracket(100_000)
     Gui.Selection.addSelection(document.Bracket)
     hands.command(DeformWorkpiece)
-    hands.until(lambda: "after" in hands.find("FfdsFigures").text(), 60)
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 60)
     slider, steps, seen = hands.find("FfdsStiffness"), [], set()
     with Gaps() as gaps:
         for _ in range(8):

@@ -10,6 +10,7 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import JointSettings, SensorProfile, register_joint
+from ffds_workbench.registration.joint.problem import make_problem
 
 LENGTH, WIDTH, THICKNESS, RADIUS = 60.0, 40.0, 2.0, 300.0
 NOISE, DENSITY = 0.05, 10.0
@@ -145,3 +146,24 @@ def test_less_noise_is_never_worse(part):
     # A tenth for chance, and a micrometre: the lattice, the rounding of the surfaces, one Gauss-Newton step.
     assert (errors[1:] < 1.1 * errors[:-1] + 1e-3).all(), errors
     assert errors[-1].max() < 2e-3, errors
+
+
+@pytest.mark.parametrize("count", [100, 400, 4000])
+def test_noise_of_few_points_is_not_their_distance_across_the_part(part, count):
+    """A dozen neighbours lie on both skins of the plate, or around its bend."""
+    random = np.random.default_rng(count)
+    points = scan_of([0.0, THICKNESS], count)
+    points = points[random.permutation(len(points))[:count]]
+    found = make_problem(part, points, JointSettings(), {}).lengths.noise
+    # The median absolute deviation of n/2 differences is known to 1.17 / √(n/2), 0.17 for 100 points; twice that. A
+    # plate 1.5 mm off slopes by 0.1 at its ends: neighbours 3.5 mm apart differ by up to 0.35 mm; a sixth as a rule.
+    assert 0.6 * NOISE < found < 1.4 * NOISE + 0.06 / np.sqrt(count / 100)
+
+
+def test_few_points_are_used(part):
+    """600 points, two per square millimetre of noise squared: the plate as a whole is known to a fraction of it."""
+    top = skin(part, THICKNESS)
+    points = scan_of([THICKNESS], 3)[:600]
+    error = np.abs(deviation(as_built(part, register_joint(part, points), top)) - THICKNESS / 2)
+    # Least squares of the roll with its two or three shapes: σ √(3/600) = 0.004 mm, and some 30 of the lattice: 0.011.
+    assert error.mean() < 0.02

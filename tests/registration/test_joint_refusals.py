@@ -12,8 +12,9 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import JointSettings, register_joint
-from ffds_workbench.registration.joint.outcome import refuse_unsound
+from ffds_workbench.registration.joint.outcome import refuse_unsound, torn_faces
 from ffds_workbench.registration.joint.problem import make_problem
+from ffds_workbench.registration.joint.solve import gauss_newton_step
 from ffds_workbench.registration.joint.state import start
 
 SIZE, THICKNESS = (40.0, 30.0), 3.0
@@ -115,3 +116,22 @@ def test_a_face_that_does_not_follow_its_points(part, scan):
                 refuse_unsound(problem, state)
         else:
             refuse_unsound(problem, state)
+
+
+def test_a_small_face_that_wanders_is_carried(scan):
+    """A boss of 4 × 4 mm on the plate: it may wander, a whole side may not; without its points the rest goes on."""
+    boss = Part.makeBox(4, 4, 5, FreeCAD.Vector(18, 13, THICKNESS))
+    part = joint_part(read(Part.makeBox(*SIZE, THICKNESS).fuse(boss).removeSplitter().Solids[0]))
+    problem = make_problem(part, scan, JointSettings(), {})
+    top = [k for k, face in enumerate(part.faces) if face.surface.control_points[..., 2].min() > THICKNESS + 4]
+    side = [k for k, face in enumerate(part.faces) if face.surface.control_points[..., 2].max() < 1e-9]
+    steps = np.full(len(part.faces), 0.1)
+    state = replace(start(problem), last_step=20.0, face_steps=steps.copy())
+    state.face_steps[top] = 20.0
+    assert torn_faces(problem, state) == tuple(top)
+    state.face_steps[side] = 15.0
+    assert torn_faces(problem, state) == ()
+    assert torn_faces(problem, replace(state, last_step=0.1)) == ()
+    held = gauss_newton_step(problem.without_points_on(side), JointSettings().schedule[-2], start(problem))
+    assert held.values.count.sum() > 1000
+    assert not held.values.count[np.isin(problem.face_of_cell, side)].any()

@@ -86,8 +86,8 @@ def _register(folder: Path, scratch: Path, sensor: SensorProfile | None) -> dict
     except FfdsError as error:
         return {"refused": str(error)}
     row: dict[str, Any] = {"seconds": time.perf_counter() - start, "certificate": result.certificate.problems(),
-                           "unsure": result.joint.unsure}
-    own = _own_truth(result, truth)
+                            "unsure": result.joint.unsure}
+    own = judge_by_truth(result, truth)
     return row | (_independent(folder, out) or own.pop("judged")) | own["bands"]
 
 
@@ -107,7 +107,7 @@ def _independent(folder: Path, out: Path) -> dict[str, Any] | None:
             "tolerance": health["max_tolerance"], "topology": not found["flags"]}
 
 
-def _own_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]:
+def judge_by_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]:
     """Figures from the truth's points and the as-built faces, and how many points the bands hold."""
     part = workpiece.read(result.nominal.shape)
     visible, deviation, band, flag = [], [], [], []

@@ -86,17 +86,21 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     rng = np.random.default_rng([seed, sorted(FAMILIES).index(family), WARPS.index(warp)])
     part = through_step(FAMILIES[family](rng))
     move = deformation(part, warp, amplitude, rng)
-    target = scene_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
     directions = part.views[:1] if scan_name.startswith("one-view") else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
-    views = tuple(View(tuple(direction)) for direction in directions)
-    settings = SensorSettings(spacing=0.35, views=views, seed=int(rng.integers(2**31)), **SCANS[scan_name])
-    before = edge_points(part.shape)
-    after = move(before.reshape(-1, 3)).reshape(before.shape)
-    truth = make_truth(target, settings, before, after, part.thickness)
-    scan = simulate(target, settings)
+    settings = SensorSettings(spacing=0.35, views=tuple(View(tuple(direction)) for direction in directions),
+                              seed=int(rng.integers(2**31)), **SCANS[scan_name])
+    target, scan, truth = scanned(part, move, settings)
     normals = sensed_normals(scan, target, settings) if scan_name.endswith("with normals") else None
     return Case(family, warp, scan_name, seed, part, target, scan, truth, normals)
+
+
+def scanned(part: FamilyPart, move: warps.Warp, settings: SensorSettings) -> tuple[Scene, SimulatedScan, Truth]:
+    """The deformed part, a scan of it, and the truth about both."""
+    target = scene_of(part.shape, {i: lambda _, points: move(points) - points for i in range(len(part.shape.Faces))})
+    before = edge_points(part.shape)
+    after = move(before.reshape(-1, 3)).reshape(before.shape)
+    return target, simulate(target, settings), make_truth(target, settings, before, after, part.thickness)
 
 
 def sensed_normals(scan: SimulatedScan, target: Scene, settings: SensorSettings) -> Array:

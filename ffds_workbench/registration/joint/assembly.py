@@ -1,5 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rows of the normal equations at the current shape: what the scan says, and what the shape resists."""
+"""The objective, row by row: what the scan says, and what the shape resists, at the current shape.
+
+Minimised over the control points is twice a negative log posterior, a sum of squares, each over its own variance:
+
+======================= ============================================= ==============================================
+row                     what is squared                               weight, 1/variance
+======================= ============================================= ==============================================
+cell of the scan        n·d − h, height h in mm of its Tukey mean      W/(σ² + N τ²) in 1/mm²: W points (robust
+                                                                      weights) of N in the patch, σ the sensor's
+                                                                      noise, τ the model's error (`data/scatter.py`)
+visible border          m·d − offset, mm                              1/σ_b², and Huber's weight (`data/borders.py`)
+bending                 ∫ (change of curvature)² dA, no unit           1/(κ₀ l)², no unit; times the stage's multiple
+sliding                 the same within the surface                   0.3 of it × trust
+isometry                ∫ (strain of the mid surface)² dA, mm²         3000/mm² × trust on skins, 10/mm² on walls
+thickness, shear        d_back − d_front + t (n − n₀), mm,            1/σ_t² × trust, once per square of the thickness
+                        along the normal and across it
+dihedral                change of an edge's angle, rad                1/σ_a² × trust, one for all of an edge's length
+edges, seams, poles     difference of d on both sides, mm             1/σ_e²
+pose, contacts, frozen  d, or its difference, mm                      1/σ_p², or a share of the whole scan's weight
+body                    d − kriging's mean, mm                        inverse of its covariance (`body_field`)
+======================= ============================================= ==============================================
+
+The variances σ² and τ² are estimated anew in every step, from differences of neighbours that the shape does not enter;
+the trusts are ratios of the expected cost of a prior to what it costs (`prior_trust.py`); the scale of Tukey's loss
+only falls. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -92,9 +117,10 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     blocks = problem.constant.weighted(weight, trust.sliding, trust.shear, trust.dihedral)
-    blocks = blas.daxpy(across.blocks.ravel(), blocks.ravel(), a=trust.thickness - trust.shear).reshape(-1, 3, 3)
+    _add_scaled(blocks, across.blocks, trust.thickness - trust.shear, 0, len(blocks))
     skin, wall = problem.isometry_weights(trust)
-    blocks += np.where(problem.skin_blocks, skin, wall)[:, None, None] * strained
+    for is_skin, first, last in problem.skin_runs:
+        _add_scaled(blocks, strained, skin if is_skin else wall, first, last)
     bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
     right = (weight * gather(problem, load)
@@ -106,6 +132,11 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
     right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
                                                    stress))
     return NormalEquations(blocks, right)
+
+
+def _add_scaled(blocks: Array, others: Array, scale: float, first: int, last: int) -> None:
+    """Add a multiple of some of other blocks to blocks (n, 3, 3), in place: fresh memory would take longer."""
+    blas.daxpy(others.ravel(), blocks.ravel(), n=9 * (last - first), a=scale, offx=9 * first, offy=9 * first)
 
 
 def strain_blocks(problem: Problem, control_points: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import blas
 
 from ..arrays import Array, Index
 from .linear import Pattern
@@ -36,8 +37,8 @@ class ConstantRows:
         within = SLIDING * sliding * bending
         blocks = (bending - within) * self.across
         alike = self.scalar + within * self.bending + shear * self.shear
-        for axis in range(3):
-            blocks[:, axis, axis] += alike
+        for component in (0, 4, 8):
+            blas.daxpy(alike, blocks.ravel(), offy=component, incy=9)
         for (place, rows), weight in ((self.smooth, 1.0), (self.dihedral, dihedral)):
             blocks[place] += weight * rows
         return blocks

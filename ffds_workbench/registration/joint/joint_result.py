@@ -99,6 +99,7 @@ class JointRegistration:
     last_step : largest change of a surface point in mm in the last step
     used : number of scan points that carry weight
     unsure : thickness in mm of a sheet of which the scan may show the other skin, contained in the bands; mostly 0
+    torn : names of small faces that did not come to rest on their scan points and are carried by their neighbours
     free_motions : along which solids slide in themselves and stay where they were, one phrase each
     """
 
@@ -113,6 +114,7 @@ class JointRegistration:
     used: int
     unsure: float = 0.0
     free_motions: tuple[str, ...] = ()
+    torn: tuple[str, ...] = ()
 
     @property
     def faces(self) -> tuple[JointFace, ...]:

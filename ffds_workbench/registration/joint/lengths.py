@@ -8,9 +8,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...errors import RefusedError
-from ..arrays import Array
-from .data import ScanStatistics
-from .surfaces import SpanGrid
+from ..arrays import Array, Index
+from ..robust_weights import robust_sigma
+from .data import Correspondence, ScanStatistics, correspond, make_frames
+from .surfaces import Lattices, SpanGrid, by_face
 
 _TYPICAL, _SEEN = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
@@ -21,6 +22,8 @@ _STIFF = 30.0
 """The reach over the scatter of the points about the shape while it is still stiff (unit)."""
 _BESIDE_EDGE = 0.01
 """The same beside an edge, where no points hold the shape, over the reach (unit)."""
+_PLANES_FAIL = 2.0
+"""Noise about planes through neighbours over that about the nominal part from which the planes saw bends (unit)."""
 _MODEL = 3e-4
 """Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
 
@@ -59,8 +62,10 @@ class Lengths:
         return self.reach * _MODEL
 
 
-def find_lengths(cells: SpanGrid, sample: Array, statistics: ScanStatistics) -> tuple[Lengths, Array]:
-    """The lengths, and how far the points of the sample lie from the nominal part, infinite beyond its size: (n,).
+def find_lengths(lattices: Lattices, cells: SpanGrid, distance: Array, sample: Array, statistics: ScanStatistics
+                 ) -> tuple[Lengths, Array]:
+    """The lengths, for cells with their ``distance`` (spans, k) from the border of their face, and how far the points
+    of the sample lie from the nominal part, infinite beyond its size: (n,).
 
     Raises
     ------
@@ -76,5 +81,22 @@ def find_lengths(cells: SpanGrid, sample: Array, statistics: ScanStatistics) -> 
     if typical > _LEAST_REACH / _REACH:
         back = cKDTree(sample).query(position, workers=-1)[0]
         typical = min(typical, float(np.quantile(back, _SEEN)))
-    reach = max(_LEAST_REACH, _REACH * typical, 4 * statistics.noise)
-    return Lengths(size, 1 / np.sqrt(statistics.density), statistics.noise, statistics.resolution, reach), apart
+    reach = max(_LEAST_REACH, _REACH * typical)
+    frames = make_frames(lattices, cells, cells.nominal, np.zeros(len(distance)), distance)
+    found = correspond(sample, frames, reach)
+    beside = _noise_beside(sample[found.point], found, lattices.face_of_span[found.cell // distance.shape[1]])
+    noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)
+    return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution, max(reach, 4 * noise)), apart
+
+
+def _noise_beside(points: Array, found: Correspondence, face: Index) -> float:
+    """Standard deviation of the heights of neighbours (n, 3) on the same face, infinite if there are none.
+
+    Planes through neighbours, as in `scan_statistics`, see the bends and the far side of a part where points are few;
+    heights above the nominal part see of a deformation only its slope.
+    """
+    if len(points) < 2:
+        return float(np.inf)
+    step = cKDTree(by_face(points, face)).query(by_face(points, face), k=2, workers=-1)[1][:, 1]
+    same = face[step] == face
+    return robust_sigma((found.height - found.height[step])[same]) / np.sqrt(2.0) if same.any() else np.inf

@@ -19,6 +19,9 @@ from .surfaces import normals
 from .uncertainty import assess
 
 _NOT_CONVERGED = 0.5
+_TORN_STEP, _TORN_AREA = 0.5, 0.05
+"""Faces that move by this share of the largest step wander; of the part's area they may be this share, so that the
+others hold them (units)."""
 _LEAST_USED_POINTS = 50
 _LEAST_USED_SHARE = 0.02
 _COLLAPSED_AREA = 0.1
@@ -27,6 +30,16 @@ _OFF_IN_NOISES, _OFF_SHARE, _NEGLIGIBLE = 10.0, 0.2, 1e-5
 part did, and farther than as many times this share of the part's size, which is less than anybody can see."""
 _LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
 """Points and cover of a face that is judged: what else lies near it does not cover it."""
+
+
+def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
+    """Small faces that still wander while the scan holds the part: they are torn between two places in it."""
+    if state.face_steps is None or state.last_step <= _NOT_CONVERGED:
+        return ()
+    wandering = state.face_steps > _TORN_STEP * state.last_step
+    area = np.bincount(problem.face_of_cell, problem.area.ravel())
+    small = area[wandering].sum() < _TORN_AREA * area.sum()
+    return tuple(np.flatnonzero(wandering).tolist()) if small else ()
 
 
 def refuse_unsound(problem: Problem, state: State) -> None:
@@ -63,7 +76,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
 
 def _refuse_off_scan(problem: Problem, state: State) -> None:
     """Raise RefusedError where a face is covered by scan points and lies far off them: they were not followed."""
-    noise = problem.statistics.noise
+    noise = problem.lengths.noise
     before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), state.reach).height))
     found = _all_matched(problem, state.control_points, state.reach)
     face = problem.face_of_cell[found.cell]

@@ -30,6 +30,8 @@ _LEAST_TRUST_MASSIVE = 0.1
 _ISOMETRY_OFF = 1e-6
 _ISOMETRIC_TRUST = 0.1
 """A part counts as isometric while its isometry is trusted by more than this."""
+_MOST_WON_BACK = 3.0
+"""Factor that the trust in isometry does not gain within a stage. *unit*: isometric parts gain half as much."""
 _OBSERVED_SHARE = 0.3
 """Share of a span's cells that make it observed."""
 
@@ -95,3 +97,8 @@ def observed_strain(problem: Problem, state: State) -> float:
 def is_isometric(state: State) -> bool:
     """Whether what the scan shows lets the part count as isometric."""
     return state.trust.isometry > _ISOMETRIC_TRUST
+
+
+def may_be_isometric(state: State) -> bool:
+    """Whether the part may yet come to count as isometric within a stage."""
+    return _MOST_WON_BACK * state.trust.isometry > _ISOMETRIC_TRUST

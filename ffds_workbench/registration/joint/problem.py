@@ -2,7 +2,8 @@
 """Everything about a part and a scan that stays the same while the joint solve runs."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -91,6 +92,10 @@ class Problem:
             return known
         return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
+    def without_points_on(self, faces: Sequence[int]) -> Problem:
+        """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
+        return replace(self, margin=np.where(np.isin(self.lattices.face_of_span, faces), np.inf, self.margin))
+
     @property
     def size(self) -> float:
         """Diagonal of the box around the nominal cells, in mm."""
@@ -112,9 +117,12 @@ class Problem:
         return self.sheet_of_span > 0
 
     @cached_property
-    def skin_blocks(self) -> NDArray[np.bool_]:
-        """Whether a block of the pattern belongs to the skin of a sheet: (size,)."""
-        return (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
+    def skin_runs(self) -> list[tuple[bool, int, int]]:
+        """Blocks of the pattern from a first to a last one that belong to skins of sheets, or to other faces."""
+        skin = (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
+        starts = np.flatnonzero(np.diff(skin, prepend=~skin[:1]))
+        ends = np.append(starts[1:], len(skin))
+        return list(zip(skin[starts].tolist(), starts.tolist(), ends.tolist(), strict=True))
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
@@ -144,17 +152,17 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
-    lengths, apart = find_lengths(cells, sample, statistics)
+    distance = distance_to_trims(part.faces, lattices, cells)
+    lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
-    distance = distance_to_trims(part.faces, lattices, cells)
     area = np.where(cells.inside, area, 0.0)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
                    pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, statistics.noise)), lengths,
+                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 

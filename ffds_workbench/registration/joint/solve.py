@@ -21,8 +21,8 @@ from .data import (CellHeights, Correspondence, Scatter, correspond, find_border
 from .joint_result import JointRegistration
 from .lattice_refinement import faces_to_refine, transfer
 from .linear import solve_normal_equations
-from .outcome import refuse_unsound, summarise
-from .prior_trust import is_isometric, update_prior_trust
+from .outcome import refuse_unsound, summarise, torn_faces
+from .prior_trust import is_isometric, may_be_isometric, update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .skins import candidate_outward_normals, choose_skin, outward_normals_of_all
@@ -73,21 +73,22 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     sides, told = candidate_outward_normals(problem, state.reach)
     state = choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, facing=outward), len(sides) > 1)
                                   for outward in sides], told)
-    for number, stage in enumerate(steps):
-        if stage.soft:
-            report("joint solve", number / len(steps))
-            state = _run_soft_stage(problem, stage, state)
+    stiff, state = state, _run_soft_stages(problem, steps, state, report)
+    torn = torn_faces(problem, state)
+    if torn:
+        problem = problem.without_points_on(torn)
+        state = _run_soft_stages(problem, steps, stiff, report)
     finer = faces_to_refine(problem, state) if settings.refine else {}
     if finer:
         report("finer lattice", 1.0)
-        coarse, problem = problem, make_problem(part, scan, settings, finer)
+        coarse, problem = problem, make_problem(part, scan, settings, finer).without_points_on(torn)
         state = transfer(coarse, problem, state)
         for stage in steps:
             if stage.soft:
                 state = run_stage(problem, stage, state)
     state = replace(state, control_points=close_seams(part, problem.lattices, state.control_points))
     refuse_unsound(problem, state)
-    return summarise(problem, state)
+    return replace(summarise(problem, state), torn=tuple(part.faces[index].name for index in torn))
 
 
 def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
@@ -99,28 +100,41 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
     return state
 
 
+def _run_soft_stages(problem: Problem, steps: tuple[Stage, ...], state: State, report: Progress) -> State:
+    for number, stage in enumerate(steps):
+        if stage.soft:
+            report("joint solve", number / len(steps))
+            state = _run_soft_stage(problem, stage, state)
+    return state
+
+
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
     """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
-        unstretched = run_stage(problem, replace(stage, allowance=1.0), state)
+        unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):
             return unstretched
     return run_stage(problem, stage, state)
 
 
-def run_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """Gauss-Newton steps of one stage, until they are smaller than what the stage can resolve."""
+def run_stage(problem: Problem, stage: Stage, state: State,
+              promising: Callable[[State], bool] = lambda state: True) -> State:
+    """Gauss-Newton steps of one stage, while it is ``promising``, until they are smaller than what it can resolve."""
     if stage.body and not body_informs(problem, state.trust):
         return state
     cache = state.cache
     if stage.all_points and not stage.body:
-        cache = replace(cache, nearest=None, factor=None, facing=outward_normals_of_all(problem, state.facing))
+        cache = replace(cache, nearest=None, factor_bending=np.inf,
+                        facing=outward_normals_of_all(problem, state.facing))
     if stage.soft:
         cache = replace(cache, thickness_rows=problem.thickness_rows(state.control_points, cache.thickness_rows),
                         body=None)
     state = replace(state, cache=cache)
     for _ in range(stage.iterations):
-        before, state = state, gauss_newton_step(problem, stage, update_prior_trust(problem, state, stage))
+        before, judged = state, update_prior_trust(problem, state, stage)
+        if not promising(judged):
+            return judged
+        state = gauss_newton_step(problem, stage, judged)
         loosening = stage.all_points and state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
         if state.last_step < stage.enough and not (loosening and _misfits_scan(problem, state)):
             break
@@ -145,25 +159,28 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
         add_borders(equations, problem, state.control_points, cache.borders)
     if cache.body is not None:
         add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
-    near = cache.factor if stage.bending > _FACTOR_LASTS * cache.factor_bending else None
-    step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, near)
+    near = stage.bending > _FACTOR_LASTS * cache.factor_bending
+    step, factor = solve_normal_equations(problem.pattern, equations.blocks, equations.right, cache.factor, near)
     free = problem.free_motions
     if free.texts:
         step = free.hold(state.control_points, step, np.array([factor.solve(row.ravel()).reshape(-1, 3)
                                                                for row in free.rows]))
     moved = problem.cells.tables[0] @ step[problem.lattices.controls]
-    last_step = float(np.sqrt((moved[problem.cells.inside] ** 2).sum(axis=1).max()))
+    face_steps = np.zeros(len(problem.part.faces))
+    np.maximum.at(face_steps, problem.lattices.face_of_span,
+                  np.where(problem.cells.inside, np.sqrt((moved**2).sum(axis=2)), 0.0).max(axis=1))
+    last_step = float(face_steps.max())
     cache = replace(cache, nearest=found.nearest, moved=cache.moved + last_step, factor=factor,
-                    factor_bending=stage.bending if factor is not near else cache.factor_bending)
+                    factor_bending=cache.factor_bending if factor is cache.factor else stage.bending)
     return replace(state, control_points=state.control_points + step, values=values,
-                   last_step=last_step, iterations=state.iterations + 1, cache=cache)
+                   last_step=last_step, iterations=state.iterations + 1, cache=cache, face_steps=face_steps)
 
 
 def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
     """The scan points of the stage with their cells on the current shape."""
     points = problem.scan if stage.all_points else problem.sample
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    gate = max(stage.gate, 4 * problem.statistics.noise)
+    gate = max(stage.gate, 4 * problem.lengths.noise)
     found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
                        state.cache.facing if stage.all_points else state.facing)
     if not len(found.point):

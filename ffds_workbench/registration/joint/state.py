@@ -57,6 +57,7 @@ class State:
     trust : in the priors
     last_step : largest movement of a cell in the last iteration, in mm
     iterations : so far
+    face_steps : (faces,) largest movement of a cell of every face in the last iteration, in mm
     unsure : how far the whole part may be off in mm, because the scan may show the other skin of a sheet
     """
 
@@ -69,6 +70,7 @@ class State:
     last_step: float = np.inf
     iterations: int = 0
     unsure: float = 0.0
+    face_steps: Array | None = None
 
 
 def fresh_cache(problem: Problem, control_points: Array) -> StepCache:

@@ -65,15 +65,20 @@ class FrontLayout:
 class FrontCholesky:
     """A = Uᵀ U, front by front."""
 
-    def __init__(self, layout: FrontLayout, blocks: Array) -> None:
+    flat: Array
+
+    def __init__(self, layout: FrontLayout, blocks: Array, earlier: FrontCholesky | None = None) -> None:
         """Factor the matrix with the pattern's ``blocks`` (n, 3, 3).
+
+        The memory of an ``earlier`` factor of the same layout is used again: it is one of this matrix from then on.
 
         Raises
         ------
         numpy.linalg.LinAlgError : the matrix is not positive definite
         """
         self.layout = layout
-        flat = np.zeros(layout.offset[-1])
+        self.flat = flat = np.empty(layout.offset[-1]) if earlier is None else earlier.flat
+        flat[:] = 0.0
         flat[layout.target] = blocks[layout.upper].ravel()
         self.own: list[Array] = []
         self.border: list[Array] = []
@@ -126,19 +131,18 @@ class FrontCholesky:
         return x
 
     def inverse_blocks(self) -> Array:
-        """The blocks of A⁻¹ on the pattern, (n, 3, 3)."""
-        layout = self.layout
-        flat = np.empty(layout.offset[-1])
+        """The blocks of A⁻¹ on the pattern, (n, 3, 3). They take the place of the factor, which is none any more."""
+        layout, flat = self.layout, self.flat
         last_child = {front.parent: number for number, front in reversed(list(enumerate(layout.fronts)))}
         beyond: dict[int, Array] = {}
         for number in range(len(layout.fronts) - 1, -1, -1):
             parent, k = layout.fronts[number].parent, layout.own[number]
             rows, upper = layout.rows(flat, number), np.triu(lapack.dpotri(self.own[number])[0])
+            reach = blas.dtrsm(1.0, self.own[number], self.border[number]) if parent >= 0 else self.border[number]
             rows[:, :k] = upper + upper.T
             np.fill_diagonal(rows[:, :k], upper.diagonal())
             if parent >= 0:
                 border = self._inverse_beyond(flat, number, beyond.get(parent))
-                reach = blas.dtrsm(1.0, self.own[number], self.border[number])
                 rows[:, k:] = blas.dsymm(-1.0, border, reach, side=1)
                 rows[:, :k] -= rows[:, k:] @ reach.T
                 if number in last_child:

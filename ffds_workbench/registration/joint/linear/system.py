@@ -77,25 +77,26 @@ class Pattern:
         return bsr_matrix((blocks, self.indices, self.indptr), shape=(3 * self.count, 3 * self.count))
 
 
-def solve_normal_equations(pattern: Pattern, blocks: Array, right: Array,
-                           factor: FrontCholesky | None) -> tuple[Array, FrontCholesky]:
+def solve_normal_equations(pattern: Pattern, blocks: Array, right: Array, factor: FrontCholesky | None,
+                           near: bool) -> tuple[Array, FrontCholesky]:
     """Solve the normal equations; with a factor of a near matrix by conjugate gradients, else (or if slow) anew.
 
     Parameters
     ----------
     blocks : (size, 3, 3) values on the pattern
     right : (controls, 3)
-    factor : Cholesky factor of an earlier matrix, or None
+    factor : Cholesky factor of an earlier matrix, or None; its memory is used for a new one
+    near : whether that matrix was near to this one
 
     Returns
     -------
     solution (controls, 3), and the factor to go on with
     """
-    if factor is not None:
+    if factor is not None and near:
         solution = _conjugate_gradients(pattern.matrix(blocks), right.ravel(), factor)
         if solution is not None:
             return solution.reshape(-1, 3), factor
-    factor = FrontCholesky(pattern.layout, blocks)
+    factor = FrontCholesky(pattern.layout, blocks, factor)
     return factor.solve(right.ravel()).reshape(-1, 3), factor
 
 

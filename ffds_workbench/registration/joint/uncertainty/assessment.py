@@ -19,7 +19,6 @@ from .bands import TWO_SIDED, edge_bands, normal_bands
 from .covariance import covariance_blocks
 from .misfit import misfit, nearest_spans
 from .observed_cells import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
-from .shared_noise import shared_errors
 
 Flags = NDArray[np.str_]
 
@@ -27,10 +26,9 @@ Flags = NDArray[np.str_]
 def assess(problem: Problem, state: State, displacements: Sequence[SplineSurface]
            ) -> tuple[tuple[JointFace, ...], tuple[EdgeRegistration, ...]]:
     """Faces, whose displacements are given, and edges with their bands and flags."""
-    covariance, factor = covariance_blocks(problem, state)
+    covariance, errors = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
     off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2
-    errors = shared_errors(problem, state, factor)
     return (_faces(problem, state, displacements, covariance, errors, seen, off),
             _edges(problem, state, covariance, errors, seen, off))
 

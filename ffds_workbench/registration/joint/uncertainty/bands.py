@@ -40,7 +40,7 @@ def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Arra
         spans = np.arange(start, min(start + 256, len(normal)))
         at = np.einsum("ki,kj,sijxy->skxy", table, table, span_covariance(problem, covariance, spans), optimize=True)
         variance[spans] += np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
-    leak = _NEIGHBOUR_LEAK * problem.statistics.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
+    leak = _NEIGHBOUR_LEAK * problem.lengths.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
     return _quantile(gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
 
 

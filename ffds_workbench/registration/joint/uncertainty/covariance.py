@@ -12,19 +12,25 @@ from ..prior_trust import cost_of_each_prior
 from ..problem import Problem
 from ..state import State
 from ..surfaces import normals
+from .shared_noise import shared_errors
 
 _PRIORS_WIDE_ENOUGH = 1.2
 """Priors are widened if their cost exceeds the effective degrees of freedom by more than this factor."""
 _HUTCHINSON_PROBES = 16
 
 
-def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontCholesky]:
-    """Blocks (size, 3, 3) of the covariance on the pattern, and the factor of the last normal equations.
+def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:
+    """Blocks (size, 3, 3) of the covariance on the pattern, and the errors that `shared_errors` finds.
 
     In chi-square units the normal matrix is the inverse of the covariance. What the priors cost, over the number of
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
+    factor, errors = _factor(problem, state)
+    return factor.inverse_blocks(), errors
+
+
+def _factor(problem: Problem, state: State) -> tuple[FrontCholesky, Array]:
     cache = state.cache
     equations = shape_equations(problem, state.control_points, 1.0, state.trust, cache.strain_matrices,
                                 cache.thickness_rows)
@@ -37,11 +43,12 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, FrontChole
     # The factor that the solve ends with is of an earlier trust in the priors.
     factor = FrontCholesky(problem.pattern.layout, equations.blocks)
     ratio = prior_cost(problem, state) / max(_effective_dof(problem, factor, prior), 1.0)
+    errors = shared_errors(problem, state, factor)
     if ratio < _PRIORS_WIDE_ENOUGH:
-        return factor.inverse_blocks(), factor
+        return factor, errors
     prior *= 1 / ratio - 1
     prior += equations.blocks
-    return FrontCholesky(problem.pattern.layout, prior).inverse_blocks(), factor
+    return FrontCholesky(problem.pattern.layout, prior, factor), errors
 
 
 def _effective_dof(problem: Problem, factor: FrontCholesky, prior: Array) -> float:
