@@ -113,6 +113,21 @@ def test_whatever_happens_to_a_file_is_a_row_and_rows_are_kept(tmp_path):
     assert {row["exit"] for row in rows} == {None} and kept.stat().st_mtime_ns > before
 
 
+def test_a_run_that_is_broken_off_keeps_no_row_of_what_it_ended(tmp_path):
+    parts, out = tmp_path / "parts", tmp_path / "out"
+    parts.mkdir()
+    out.mkdir()
+    (parts / "no.step").write_text("ISO-10303-21;\n")
+    Part.makeBox(40, 30, 20).exportStep(str(parts / "box.step"))
+
+    def interrupt(message: str) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        world.run(out, interrupt, [parts], deformations=["none"], workers=2)
+    assert [row.parent.parent.name for row in out.glob("cases/*/*/row.json")] == ["no.step"]
+
+
 def test_what_cannot_be_measured_is_one_line(ffds, tmp_path):
     for arguments, said in (([], "--parts"), (["--parts", "nowhere"], "nowhere"), (["--views", "9"], "1 to 8 views"),
                             (["--primitives", "--deformations", "dent"], "'dent' is unknown")):

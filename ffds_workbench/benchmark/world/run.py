@@ -72,6 +72,7 @@ def run(folder: Path, progress: Progress, parts: Sequence[Path] = (), primitives
     jobs = [WorldCase(path, name, settings or ScanSettings(), limit, folder / "cases" / path.name / name)
             for path in sorted(files, key=lambda path: path.stat().st_size) for name in deformations]
     rows: dict[WorldCase, Row] = {}
+    _BROKEN_OFF.clear()
     with ThreadPoolExecutor(workers) as pool:
         futures = {pool.submit(job.row): job for job in jobs}
         try:
@@ -81,7 +82,9 @@ def run(folder: Path, progress: Progress, parts: Sequence[Path] = (), primitives
                 progress(f"Case {len(rows)} of {len(jobs)}: {job.path.name}, {job.deformation}")
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
-            WorldCase.stop_all()
+            _BROKEN_OFF.set()
+            for process in list(_UNDER_WAY):
+                process.kill()
             raise
     found = [rows[job] for job in jobs]
     data = {"settings": asdict(settings or ScanSettings()), "lines": [line.as_dict() for line in tables.lines(found)],
@@ -111,7 +114,8 @@ class WorldCase:
         self.folder.mkdir(parents=True)
         (self.folder / "job.json").write_text(json.dumps(job))
         row = {"job": job, "file": self.path.name, "deformation": self.deformation, **self._steps()}
-        kept.write_text(json.dumps(row))
+        if not _BROKEN_OFF.is_set():
+            kept.write_text(json.dumps(row))
         return row
 
     def _steps(self) -> Row:
@@ -124,15 +128,9 @@ class WorldCase:
             for name in ("made", "registered", "judged"):
                 if (self.folder / f"{name}.json").is_file():
                     row |= json.loads((self.folder / f"{name}.json").read_text())
-            if end.code != 0:
+            if end.code != 0 or _BROKEN_OFF.is_set():
                 break
         return row | {"outcome": tables.outcome(row)}
-
-    @staticmethod
-    def stop_all() -> None:
-        """End the steps under way."""
-        for process in list(_UNDER_WAY):
-            process.kill()
 
 
 @dataclass(frozen=True)
@@ -147,13 +145,15 @@ class _ProcessEnd:
 
 
 _UNDER_WAY: set[subprocess.Popen[bytes]] = set()
+_BROKEN_OFF = threading.Event()
+"""Set when a run is broken off: what its steps then end with is no row."""
 
 
 def _process(step: str, folder: Path, limit: float) -> _ProcessEnd:
     said, begin = folder / f"{step}.txt", time.perf_counter()
     with said.open("wb") as stream:
         process = subprocess.Popen([sys.executable, "-P", "-c", _STEP, step, str(folder)], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=stream,
+                                   stdout=subprocess.DEVNULL, stderr=stream, start_new_session=True,
                                    env=os.environ | _THREADS | {"PYTHONPATH": str(ROOT)})
     _UNDER_WAY.add(process)
     late = threading.Event()

@@ -25,6 +25,8 @@ from .case import make as make_case
 from .settings import ScanSettings
 
 MADE, BUILT, REGISTERED, JUDGED = "made.json", "as_built.step", "registered.json", "judged.json"
+BUILT_EXACTLY = "as_built.brep"
+"""Where no STEP file can number the edges as the nominal model does."""
 _FLOOR_SIGMAS, _FLOOR_SIZE = 4.0, 1e-3
 """An edge is where it should be within so many σ of the scan and that share of the part's diagonal."""
 
@@ -48,8 +50,9 @@ def make(folder: Path) -> None:
 def register(folder: Path) -> None:
     """The as-built model as ``ffds register`` writes it, what it took, and the bands where the truth is known."""
     begin = time.perf_counter()
-    result = api.register(api.read_model(_made(folder)["nominal_path"]), api.read_scan(folder / "scan.ply"))
-    api.write(result, folder / BUILT)
+    model = api.read_model(_made(folder)["nominal_path"])
+    result = api.register(model, api.read_scan(folder / "scan.ply"))
+    api.write(result, folder / (BUILT if api.step_keeps_numbers(model) else BUILT_EXACTLY))
     seconds, used = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_SELF)
     (folder / REGISTERED).write_text(json.dumps(
         {"seconds": seconds, "processor": used.ru_utime + used.ru_stime, "megabytes": used.ru_maxrss / 1024}))
@@ -60,7 +63,8 @@ def judge(folder: Path) -> None:
     """What the written file is worth, as it reads back."""
     settings, made = _job(folder)[1], _made(folder)
     floor = _FLOOR_SIGMAS * settings.sigma * settings.scale + _FLOOR_SIZE * made["size"]
-    row = judging.judge(Part.read(made["nominal_path"]), folder / BUILT, _truth(folder),
+    built = folder / (BUILT if (folder / BUILT).exists() else BUILT_EXACTLY)
+    row = judging.judge(Part.read(made["nominal_path"]), built, _truth(folder),
                         dict(np.load(folder / "bands.npz")), floor)
     (folder / JUDGED).write_text(json.dumps(row))
 

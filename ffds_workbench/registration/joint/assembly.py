@@ -1,5 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rows of the normal equations at the current shape: what the scan says, and what the shape resists."""
+"""The objective, row by row: what the scan says, and what the shape resists, at the current shape.
+
+Minimised over the control points is twice a negative log posterior, a sum of squares, each over its own variance:
+
+======================= ============================================= ==============================================
+row                     what is squared                               weight, 1/variance
+======================= ============================================= ==============================================
+cell of the scan        n·d − h, height h in mm of its Tukey mean      W/(σ² + N τ²) in 1/mm²: W points (robust
+                                                                      weights) of N in the patch, σ the sensor's
+                                                                      noise, τ the model's error (`data/scatter.py`)
+visible border          m·d − offset, mm                              1/σ_b², and Huber's weight (`data/borders.py`)
+bending                 ∫ (change of curvature)² dA, no unit           1/(κ₀ l)², no unit; times the stage's multiple
+sliding                 the same within the surface                   0.3 of it × trust
+isometry                ∫ (strain of the mid surface)² dA, mm²         3000/mm² × trust on skins, 10/mm² on walls
+thickness, shear        d_back − d_front + t (n − n₀), mm,            1/σ_t² × trust, once per square of the thickness
+                        along the normal and across it
+dihedral                change of an edge's angle, rad                1/σ_a² × trust, one for all of an edge's length
+edges, seams, poles     difference of d on both sides, mm             1/σ_e²
+pose, contacts, frozen  d, or its difference, mm                      1/σ_p², or a share of the whole scan's weight
+body                    d − kriging's mean, mm                        inverse of its covariance (`body_field`)
+======================= ============================================= ==============================================
+
+The variances σ² and τ² are estimated anew in every step, from differences of neighbours that the shape does not enter;
+the trusts are ratios of the expected cost of a prior to what it costs (`prior_trust.py`); the scale of Tukey's loss
+only falls. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
+"""
 from __future__ import annotations
 
 from dataclasses import dataclass
