@@ -65,14 +65,26 @@ class BodyRows:
 
 
 def body_informs(problem: Problem, trust: PriorTrust) -> bool:
-    """Whether the body's rows have any weight: those of sheets that keep all lengths have none."""
+    """Whether the body's rows have any weight: those of sheets that keep all lengths have none.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    trust : in the priors
+    """
     return bool((_weight_share(_is_sheet(problem, problem.part.solid_of_face), trust) > _NEGLIGIBLE_SHARE).any())
 
 
 def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHeights, borders: Borders,
               earlier: BodyRows | None) -> BodyRows:
     """Rows at the current shape ``jet`` of the cells, with control points (controls, 3) in mm and the scan's ``values``
-    and ``borders`` there. Of an ``earlier`` step the model and the precision are kept, and after a few all of it."""
+    and ``borders`` there. Of an ``earlier`` step the model and the precision are kept, and after a few all of it.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    control_points : (controls, 3) of the displacement in mm
+    """
     if earlier is not None and earlier.steps == _STEPS_TO_SETTLE:
         return earlier
     seen, face = _observe(problem, control_points, jet, values, borders)
@@ -101,7 +113,15 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
 
 def add_body_rows(equations: NormalEquations, problem: Problem, control_points: Array, rows: BodyRows,
                   trust: PriorTrust) -> None:
-    """Add the rows of the body at the current shape; sheets count as far as they are not isometric."""
+    """Add the rows of the body at the current shape; sheets count as far as they are not isometric.
+
+    Parameters
+    ----------
+    equations : that the rows are added to, in place
+    problem : what stays the same while the solve runs
+    control_points : (controls, 3) of the displacement in mm
+    trust : in the priors
+    """
     precision = _weight_share(rows.sheet, trust)[:, None, None] * rows.precision
     products = rows.basis[:, :, None] * rows.basis[:, None, :]
     for a, b in COMPONENTS:

@@ -56,6 +56,10 @@ class Borders:
     along : (n,) displacement in mm
     weight : (n,) 1/mm²
     shape : (k, 3) the sharp edges when they were looked for
+
+    Parameters of the methods
+    -------------------------
+    control_points : (controls, 3) of the displacement in mm
     """
 
     samples: FacePlaces
@@ -110,7 +114,13 @@ class NearEdges:
 def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array,
                     known: NearEdges | None) -> NearEdges:
     """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape; those that are
-    ``known`` while the edges hardly move."""
+    ``known`` while the edges hardly move.
+
+    Parameters
+    ----------
+    sides : which way the faces lie at their edges
+    control_points : (controls, 3) of the displacement in mm
+    """
     sharp = np.flatnonzero(sides.sharp)
     place = _sharp_edges(edges, sides, control_points)
     if known is not None and np.abs(place - known.place).max(initial=0.0) < _POINTS_LAST:
@@ -127,7 +137,13 @@ def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, con
                  spread: Array, known: Borders | None) -> Borders:
     """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
     edges lie where they were looked for. ``noise`` is that of the points, ``spread`` (faces,) that of the points about
-    the shape as it is, in mm."""
+    the shape as it is, in mm.
+
+    Parameters
+    ----------
+    sides : which way the faces lie at their edges
+    control_points : (controls, 3) of the displacement in mm
+    """
     shape = _sharp_edges(edges, sides, control_points)
     if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST:
         return known

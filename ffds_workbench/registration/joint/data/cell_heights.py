@@ -33,13 +33,27 @@ class CellHeights:
 
 
 def no_heights(cells: int, scatter: Scatter) -> CellHeights:
-    """The values before anything was matched."""
+    """The values before anything was matched.
+
+    Parameters
+    ----------
+    cells : places on all faces, span by span
+    scatter : variances of the heights, sensor's and model's
+    """
     return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), scatter)
 
 
 def median_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int) -> CellHeights:
     """Median height of every cell, weighted 0.64 n/s² (the median's efficiency on Gaussian noise) with the scale s of
-    the loss."""
+    the loss.
+
+    Parameters
+    ----------
+    found : the scan points with their cells
+    scatter : variances of the heights, sensor's and model's
+    face_of_span : (spans,) number of the face
+    per_span : cells of a span
+    """
     cells = len(face_of_span) * per_span
     order = np.lexsort((found.height, found.cell))
     cell, height = found.cell[order], found.height[order]
@@ -60,6 +74,13 @@ def tukey_mean_heights(found: Correspondence, scatter: Scatter, face_of_span: In
 
     The N points of a patch of cells share the error τ of the model. Noise σ and τ are measured anew, ``least`` are the
     smallest that they can be, in mm.
+
+    Parameters
+    ----------
+    found : the scan points with their cells
+    scatter : variances of the heights, sensor's and model's
+    face_of_span : (spans,) number of the face
+    per_span : cells of a span
     """
     cells = len(face_of_span) * per_span
     face = np.repeat(face_of_span, per_span)

@@ -65,6 +65,11 @@ def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, di
 
     ``distance`` (spans, k) is that from the border in mm, negative outside; cells nearer than ``margin`` (spans,) to it
     attract points but hold none.
+
+    Parameters
+    ----------
+    lattices : of all faces
+    jet : the current shape at the cells
     """
     per_span = int(np.sqrt(cells.inside.shape[1]))
     span, place = np.nonzero(distance > 0)
@@ -84,6 +89,10 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since.
 
     ``facing`` (n, 3) are outward normals of the points, zero where unknown: a point keeps to cells of its own side.
+
+    Parameters
+    ----------
+    frames : of the cells that hold points
     """
     if nearest is None:
         tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
@@ -118,7 +127,13 @@ def _rematch_wrong_side(points: Array, facing: Array, frames: Frames, nearest: I
 
 
 def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:
-    """How far from the border a face holds points: ``most`` mm, or half of its half width if that is less: (spans,)."""
+    """How far from the border a face holds points: ``most`` mm, or half of its half width if that is less: (spans,).
+
+    Parameters
+    ----------
+    lattices : of all faces
+    distance : (spans, k) of the cells from the border of their face in mm, negative outside
+    """
     widest = np.zeros(len(lattices.faces))
     np.maximum.at(widest, lattices.face_of_span, distance.max(axis=1))
     return np.minimum(most, 0.5 * widest)[lattices.face_of_span]

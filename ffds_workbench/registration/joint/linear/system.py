@@ -16,7 +16,14 @@ _CG_TOLERANCE = 3e-3
 
 
 class Pattern:
-    """Which control points meet in a row, found once per part; values are 3 × 3 blocks in the pattern's order."""
+    """Which control points meet in a row, found once per part; values are 3 × 3 blocks in the pattern's order.
+
+    Parameters of the methods
+    -------------------------
+    blocks : (size, 3, 3) values in the pattern's order
+    columns : (n,) control points
+    rows : (n,) control points
+    """
 
     def __init__(self, lattices: Lattices, couplings: tuple[spmatrix, ...], position: Array) -> None:
         """``couplings`` are scalar (controls, controls) matrices whose non-zeros belong to the pattern, ``position``

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is assumed where the scan says nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
-edges, poles, thickness, edge angles, frozen faces), `sheet_pairs` (the two skins of a sheet), `contacts` (touching
-solids), `trust_factors` (how far each prior counts).
+edges, poles, thickness, edge angles, frozen faces), `shared_edges` (the places along them), `sheet_pairs` (the two
+skins of a sheet), `contacts` (touching solids), `trust_factors` (how far each prior counts).
 """
 from .contacts import contact_rows
-from .couplings import Couplings, SharedEdgePlaces, directions, make_couplings, pose_weight
+from .couplings import Couplings, make_couplings, pose_weight
+from .shared_edges import SharedEdgePlaces, directions
 from .sheet_pairs import find_pairs, parameters
 from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
 from .trust_factors import PriorTrust

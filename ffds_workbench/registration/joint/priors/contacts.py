@@ -18,6 +18,12 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
     """Rows d_a − d_b, equal weights adding up to one per pair of solids: (contacts, controls).
 
     Contacts are places along the edges of one solid that lie within 0.05 mm of a face of another one.
+
+    Parameters
+    ----------
+    part : the faces, edges and solids
+    lattices : of all faces
+    cells : places on all faces, span by span
     """
     owner = part.solid_of_face
     edges = [edge for edge in part.edges if edge.faces and not edge.degenerate]

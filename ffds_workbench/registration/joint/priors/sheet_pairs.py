@@ -46,7 +46,15 @@ class SheetPairs:
 
 def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: SpanGrid,
                gauss: SpanGrid, area: Array) -> SheetPairs:
-    """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material."""
+    """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material.
+
+    Parameters
+    ----------
+    faces : of the part
+    solids : faces (k,) of each solid
+    lattices : of all faces
+    gauss : the Gauss places
+    """
     found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []
@@ -97,7 +105,13 @@ def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid
 
 
 def parameters(lattices: Lattices, places: SpanGrid, span: Index, place: Index) -> Array:
-    """(u, v) of places given by span and number within the span: (n, 2)."""
+    """(u, v) of places given by span and number within the span: (n, 2).
+
+    Parameters
+    ----------
+    lattices : of all faces
+    place : (n, 3) in mm
+    """
     uv = np.zeros((len(span), 2))
     faces = lattices.face_of_span[span]
     corner = np.array([f.corner for f in lattices.faces])[faces]

@@ -39,6 +39,12 @@ class Stiffness:
     curvature : (spans, k, 3) second fundamental form of the nominal surface, for the outward normal
     normal : (spans, k, 3) nominal normal
     tangent : (spans, k, 2, 3) e₁, e₂
+
+    Parameters of the methods
+    -------------------------
+    control_points : (controls, 3) of the displacement in mm
+    lattices : of all faces
+    thickness : (spans,) of the sheet in mm, 0 where there is none
     """
 
     places: SpanGrid
@@ -142,7 +148,12 @@ def _third_form(form: Array, metric: Array) -> Array:
 
 
 def make_stiffness(lattices: Lattices, places: SpanGrid) -> Stiffness:
-    """Rows and weights at the Gauss places of the nominal faces."""
+    """Rows and weights at the Gauss places of the nominal faces.
+
+    Parameters
+    ----------
+    lattices : of all faces
+    """
     tangents, seconds = places.nominal.tangents, places.nominal.seconds
     normal, area_element = normals(places.nominal, places.outward)
     to_frame = _frame(tangents)

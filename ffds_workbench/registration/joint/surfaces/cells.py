@@ -36,6 +36,7 @@ class Jet:
 
     @property
     def position(self) -> Array:
+        """Places in mm: (spans, k, 3)."""
         return self.values[:, :, 0]
 
     @property
@@ -61,6 +62,11 @@ class SpanGrid:
     nominal : the nominal surfaces
     inside : (spans, k) whether the place is within the trims
     outward : (spans,) +1 or −1: whether S_u × S_v points out of the material
+
+    Parameters of the methods
+    -------------------------
+    control_points : (controls, 3) of the displacement in mm
+    lattices : of all faces
     """
 
     local: Array
@@ -80,7 +86,13 @@ class SpanGrid:
 
 
 def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:
-    """Unit normals out of the material (spans, k, 3) and area elements |S_u × S_v| (spans, k)."""
+    """Unit normals out of the material (spans, k, 3) and area elements |S_u × S_v| (spans, k).
+
+    Parameters
+    ----------
+    jet : the current shape at the cells
+    outward : (spans,) ±1, which turns S_u × S_v out of the material
+    """
     cross = np.cross(jet.tangents[:, :, 0], jet.tangents[:, :, 1])
     area = np.sqrt(np.einsum("skx,skx->sk", cross, cross))
     return cross * (outward[:, None] / np.maximum(area, 1e-12))[:, :, None], area
@@ -88,12 +100,23 @@ def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:
 
 def by_face(position: Array, face: Index) -> Array:
     """Places (n, 3) in mm with a fourth coordinate that parts their faces (n,), so that a tree finds places of the own
-    face first: (n, 4)."""
+    face first: (n, 4).
+
+    Parameters
+    ----------
+    position : (n, 3) in mm
+    """
     return np.column_stack([position, _FACE_SEPARATION * face])
 
 
 def make_span_grid(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array) -> SpanGrid:
-    """Places at x × x in every span, x (m,) local coordinates."""
+    """Places at x × x in every span, x (m,) local coordinates.
+
+    Parameters
+    ----------
+    faces : of the part
+    lattices : of all faces
+    """
     local = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
     jets, inside = [], []
     for face, lattice in zip(faces, lattices.faces, strict=True):
@@ -115,7 +138,14 @@ def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
 
 
 def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid) -> Array:
-    """Distance in mm of each cell from the border of its face, at most a few mm; negative outside: (spans, k)."""
+    """Distance in mm of each cell from the border of its face, at most a few mm; negative outside: (spans, k).
+
+    Parameters
+    ----------
+    faces : of the part
+    lattices : of all faces
+    cells : places on all faces, span by span
+    """
     distance = np.full(cells.inside.shape, _LARGEST_TRIM_DISTANCE)
     for index, face in enumerate(faces):
         border = boundary_points(face, _BOUNDARY_SPACING)

@@ -20,6 +20,10 @@ def cubic(x: Array, derivative: int = 0) -> Array:
     """The four uniform cubic B-splines on a span of unit length, at x in [0, 1]: (n,) to (n, 4).
 
     Derivatives are with respect to x. NURBS Book, section 2.4, on equidistant knots.
+
+    Parameters
+    ----------
+    derivative : order of the derivative
     """
     y = 1.0 - x
     if derivative == 0:
@@ -44,6 +48,10 @@ class FaceLattice:
     spans : number of spans in u and v
     periodic : whether u, v close on themselves
     first_control, first_span : where the face starts in the common numbering
+
+    Parameters of the methods
+    -------------------------
+    uv : (n, 2) parameters
     """
 
     corner: Array
@@ -87,6 +95,12 @@ class Lattices:
     step : (spans, 2) size of each span in its face's (u, v)
     face_of_span : (spans,)
     face_of_control : (controls,)
+
+    Parameters of the methods
+    -------------------------
+    control_points : (controls, 3) of the displacement in mm
+    du : order of the derivative in u
+    dv : order of the derivative in v
     """
 
     faces: tuple[FaceLattice, ...]
@@ -120,7 +134,13 @@ class Lattices:
 
 
 def build_lattices(faces: tuple[FaceGeometry, ...], counts: Sequence[tuple[int, int]]) -> Lattices:
-    """Lattices with that many spans in u and v."""
+    """Lattices with that many spans in u and v.
+
+    Parameters
+    ----------
+    faces : of the part
+    counts : spans per direction of every face
+    """
     lattices: list[FaceLattice] = []
     first_control = first_span = 0
     for face, spans in zip(faces, counts, strict=True):

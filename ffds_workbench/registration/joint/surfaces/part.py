@@ -35,6 +35,7 @@ class SharedEdge:
 
     @property
     def is_seam(self) -> bool:
+        """Whether a face meets itself here."""
         return len(self.faces) == 2 and self.faces[0] == self.faces[1]
 
 

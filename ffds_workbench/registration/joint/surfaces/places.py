@@ -25,6 +25,10 @@ class FacePlaces:
     weights : (3, n, 16) weights that give d, d_u and d_v
     nominal : (3, n, 3) S₀, S₀_u and S₀_v in mm
     outward : (n,) ±1
+
+    Parameters of the methods
+    -------------------------
+    control_points : (controls, 3) of the displacement in mm
     """
 
     face: Index
@@ -62,12 +66,19 @@ class FacePlaces:
         return csr_matrix((self.weights[order].ravel(), self.controls.ravel(), start), shape=(len(self), count))
 
     def take(self, which: Index | NDArray[np.bool_]) -> FacePlaces:
+        """Those of the places that ``which``, indices or a mask (n,), tells."""
         return FacePlaces(self.face[which], self.span[which], self.controls[which], self.weights[:, which],
                           self.nominal[:, which], self.outward[which])
 
 
 def concatenate(first: FacePlaces, second: FacePlaces) -> FacePlaces:
-    """Both, one after the other."""
+    """Both, one after the other.
+
+    Parameters
+    ----------
+    first : the places that come first
+    second : those that follow
+    """
     return FacePlaces(np.concatenate([first.face, second.face]), np.concatenate([first.span, second.span]),
                       np.concatenate([first.controls, second.controls]),
                       np.concatenate([first.weights, second.weights], axis=1),
@@ -76,7 +87,14 @@ def concatenate(first: FacePlaces, second: FacePlaces) -> FacePlaces:
 
 
 def places_on_faces(faces: tuple[FaceGeometry, ...], lattices: Lattices, face: Index, uv: Array) -> FacePlaces:
-    """Places at (u, v) (n, 2) on faces (n,), in the order given."""
+    """Places at (u, v) (n, 2) on faces (n,), in the order given.
+
+    Parameters
+    ----------
+    lattices : of all faces
+    face : (n,) number of the face
+    uv : (n, 2) parameters
+    """
     n, orders = len(face), ((0, 0), (1, 0), (0, 1))
     span, local = np.zeros(n, dtype=np.intp), np.zeros((n, 2))
     nominal, outward = np.zeros((3, n, 3)), np.zeros(n)

@@ -15,7 +15,14 @@ _ON_SIDE = 1e-6
 
 
 def close_seams(part: JointPart, lattices: Lattices, control_points: Array) -> Array:
-    """Control points (controls, 3) with poles and seams closed; only the outermost rows change."""
+    """Control points (controls, 3) with poles and seams closed; only the outermost rows change.
+
+    Parameters
+    ----------
+    part : the faces, edges and solids
+    lattices : of all faces
+    control_points : (controls, 3) of the displacement in mm
+    """
     result = control_points.copy()
     for edge in part.edges:
         if edge.degenerate:

@@ -40,7 +40,7 @@ def span_counts(faces: Sequence[FaceGeometry], solids: Sequence[Index], spans: f
 
     Parameters
     ----------
-    solids : faces of each solid
+    solids : faces (k,) of each solid
     spans : over the size of a solid
     turning : largest turn of the normal over a span in rad, where a face is as round as its solid is large
     least : size of a span in mm that the scan fills

@@ -25,7 +25,13 @@ Flags = NDArray[np.str_]
 
 def assess(problem: Problem, state: State, displacements: Sequence[SplineSurface]
            ) -> tuple[tuple[JointFace, ...], tuple[EdgeRegistration, ...]]:
-    """Faces, whose displacements are given, and edges with their bands and flags."""
+    """Faces, whose displacements are given, and edges with their bands and flags.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    state : where the solve stands
+    """
     covariance, errors = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
     off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2

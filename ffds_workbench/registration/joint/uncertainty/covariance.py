@@ -61,7 +61,13 @@ def _effective_dof(problem: Problem, factor: FrontCholesky, prior: Array) -> flo
 
 
 def prior_cost(problem: Problem, state: State) -> float:
-    """What all priors together cost at the final shape, in chi-square units."""
+    """What all priors together cost at the final shape, in chi-square units.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    state : where the solve stands
+    """
     settings, stiffness = problem.settings, problem.stiffness
     normal = normals(stiffness.places.displaced(problem.lattices, state.control_points, 3), stiffness.places.outward)[0]
     change = stiffness.curvature_change(problem.lattices, state.control_points, normal)

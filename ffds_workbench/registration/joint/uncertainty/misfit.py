@@ -22,6 +22,11 @@ def misfit(problem: Problem, values: CellHeights) -> Array:
 
     Both are what is left when the expectation from noise is taken off (the moment estimator of DerSimonian and Laird,
     Controlled Clinical Trials 7, 1986).
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    values : heights of the scan, cell by cell
     """
     height, weight = values.height.reshape(problem.distance.shape), values.weight.reshape(problem.distance.shape)
     pull, total = patch_sums(height * weight), patch_sums(weight)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a reader of ``help()`` is told: every parameter by name, arrays with their shapes, and what is raised."""
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[2] / "ffds_workbench"
+ARRAYS = re.compile(r"\b(Array|Index|NDArray)\b")
+SHAPE = re.compile(r"\([^()]*[,)]")
+MODULES = sorted(path for layer in ("registration", "api") for path in (PACKAGE / layer).rglob("*.py"))
+
+
+def _handed_out() -> set[str]:
+    """What the doors of the packages hand out is public; all else is a room's own."""
+    doors = [ast.parse(path.read_text("utf-8")) for path in MODULES if path.name == "__init__.py"]
+    return {alias.name for door in doors for node in door.body if isinstance(node, ast.ImportFrom)
+            for alias in node.names if not alias.name.startswith("_")}
+
+
+PUBLIC = _handed_out()
+
+
+def _public(path: Path) -> Iterator[tuple[str, ast.FunctionDef, str]]:
+    """Public functions and methods of a module with their names and what their class says of itself; all names of what
+    lies in the open in `registration` are."""
+    in_the_open = path.parent == PACKAGE / "registration"
+    for node in ast.parse(path.read_text("utf-8")).body:
+        if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
+            continue
+        if not (in_the_open or node.name in PUBLIC):
+            continue
+        if isinstance(node, ast.FunctionDef):
+            yield node.name, node, ""
+        else:
+            for item in node.body:
+                if isinstance(item, ast.FunctionDef) and (not item.name.startswith("_") or item.name == "__call__"):
+                    yield f"{node.name}.{item.name}", item, ast.get_docstring(node) or ""
+
+
+def _is_array(annotation: ast.expr | None) -> bool:
+    return annotation is not None and bool(ARRAYS.search(ast.unparse(annotation)))
+
+
+def _gaps(name: str, function: ast.FunctionDef, of_class: str) -> Iterator[str]:
+    text = ast.get_docstring(function)
+    if not text:
+        yield f"{name} has no docstring"
+        return
+    text = text + "\n" + of_class
+    for argument in [*function.args.args, *function.args.kwonlyargs]:
+        if argument.arg in ("self", "cls"):
+            continue
+        named = re.findall(rf"(?<![\w.]){re.escape(argument.arg)}(?!\w)(.*(?:\n.*)?)", text)
+        if not named:
+            yield f"{name}: {argument.arg} is not explained"
+        elif _is_array(argument.annotation) and not any(map(SHAPE.search, named)):
+            yield f"{name}: {argument.arg} has no shape"
+    if _is_array(function.returns) and not SHAPE.search(text):
+        yield f"{name}: the shape of what it returns is not told"
+    raised = {ast.unparse(node.exc.func) for node in ast.walk(function)
+              if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call)}
+    yield from (f"{name}: {error} is not told" for error in sorted(raised) if error.split(".")[-1] not in text)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_parameters_shapes_and_errors_are_told(path):
+    assert not [gap for item in _public(path) for gap in _gaps(*item)]
