@@ -40,9 +40,9 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if picture is not None:
-            panels = [drawing.Panel("Nominal", _all(result.deviations[0]), _edges(result.nominal.shape)),
-                      drawing.Panel("As built", _all(result.deviations[1]), _edges(result.shape))]
-            _draw(target[2], result.nominal, result.scan, result.deviations[0], panels)
+            before, after = result.deviations
+            _draw(target[2], result.nominal, [_panel("Nominal", result.nominal.shape, result.scan, before),
+                                              _panel("As built", result.shape, result.scan, after)])
         if report is not None:
             topology = result.report["topology"] | {"written": certificate.as_dict()}
             record.write(result.report | {"topology": topology}, target[1])
@@ -58,21 +58,20 @@ def write_deviation(result: Deviation, report: str | Path | None = None, picture
         if report is not None:
             record.write(result.report, target[0])
         if picture is not None:
-            panel = drawing.Panel("Deviation from the model", _all(result.faces), _edges(result.model.shape))
-            _draw(target[1], result.model, result.scan, result.faces, [panel])
+            _draw(target[1], result.model, [_panel("Deviation from the model", result.model.shape, result.scan,
+                                                   result.faces)])
 
 
-def _all(faces: Sequence[FaceDeviation]) -> np.ndarray:
-    return np.concatenate([face.deviations for face in faces])
+def _panel(title: str, shape: Part.Shape, scan: PointCloud, faces: Sequence[FaceDeviation]) -> drawing.Panel:
+    """The points nearest to the faces of a shape; those of another state of it may be others."""
+    return drawing.Panel(title, scan.points[np.concatenate([face.points for face in faces])],
+                         np.concatenate([face.normals for face in faces]),
+                         np.concatenate([face.deviations for face in faces]), _edges(shape))
 
 
 def _edges(shape: Part.Shape) -> list[np.ndarray]:
     return [np.array([tuple(point) for point in edge.discretize(50)]) for edge in shape.Edges if not edge.Degenerated]
 
 
-def _draw(path: Path, model: Model, scan: PointCloud, faces: Sequence[FaceDeviation],
-          panels: Sequence[drawing.Panel]) -> None:
-    points = scan.points[np.concatenate([face.points for face in faces])]
-    normals = np.concatenate([face.normals for face in faces])
-    title = f"{model.label}: {len(points):,} scan points".replace(",", "\u202f")
-    drawing.draw(path, title, points, normals, panels)
+def _draw(path: Path, model: Model, panels: Sequence[drawing.Panel]) -> None:
+    drawing.draw(path, f"{model.label}: {len(panels[0].points):,} scan points".replace(",", "\u202f"), panels)

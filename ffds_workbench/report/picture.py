@@ -34,39 +34,41 @@ class Panel:
     Attributes
     ----------
     title : shown above
-    deviations : (n,) signed, in mm, of the same points in every panel
+    points, normals : (n, 3), the scan points that lie on the model, in mm, and the model's outward normals there
+    deviations : (n,) signed, in mm, of these points
     edges : polylines of the model, each (k, 3) in mm
     """
 
     title: str
+    points: Array
+    normals: Array
     deviations: Array
     edges: Sequence[Array]
 
 
-def draw(path: Path, title: str, points: Array, normals: Array, panels: Sequence[Panel]) -> None:
+def draw(path: Path, title: str, panels: Sequence[Panel]) -> None:
     """Write the picture as PNG.
 
     Parameters
     ----------
     path : a new file
     title : one line, the part and the scan
-    points, normals : (n, 3), the scan points that lie on the model, in mm, and the model's outward normals there
     panels : one, or before and after
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     limit = _colour_limit(panels)
-    axes_in_view = viewing_axes(normals)
+    axes_in_view = viewing_axes(panels[0].normals)
     figure = Figure(figsize=(6.4 * len(panels) + 0.6, 7.6), dpi=130, facecolor=_PAPER)
     FigureCanvasAgg(figure)
     grid = figure.add_gridspec(2, len(panels), height_ratios=(3.6, 1.0), left=0.06, right=0.9, top=0.87, bottom=0.09,
                                hspace=0.16, wspace=0.06)
     figure.text(0.06, 0.95, title, fontsize=15, color=_INK, weight="bold", va="center")
-    boxes = _common_box(points, panels, axes_in_view)
+    boxes = _common_box(panels, axes_in_view)
     for column, panel in enumerate(panels):
         axes = figure.add_subplot(grid[0, column])
-        coloured = _draw_view(axes, points, panel, axes_in_view, limit, boxes)
+        coloured = _draw_view(axes, panel, axes_in_view, limit, boxes)
     bar = figure.colorbar(coloured, cax=figure.add_axes((0.915, 0.36, 0.016, 0.48)), extend="both")
     bar.set_label("deviation, mm (+ outside the material)", color=_INK, fontsize=10)
     bar.outline.set_visible(False)
@@ -96,18 +98,18 @@ def viewing_axes(normals: Array) -> Array:
     return np.stack([right, np.cross(towards, right), towards])
 
 
-def _common_box(points: Array, panels: Sequence[Panel], view: Array) -> tuple[Array, Array]:
-    everything = np.concatenate([points, *(line for panel in panels for line in panel.edges)]) @ view[:2].T
+def _common_box(panels: Sequence[Panel], view: Array) -> tuple[Array, Array]:
+    everything = np.concatenate([part for panel in panels for part in (panel.points, *panel.edges)]) @ view[:2].T
     low, high = everything.min(axis=0), everything.max(axis=0)
     margin = 0.03 * (high - low).max()
     return low - margin, high + margin
 
 
-def _draw_view(axes: Axes, points: Array, panel: Panel, view: Array, limit: float, box: tuple[Array, Array]
-               ) -> PathCollection:
+def _draw_view(axes: Axes, panel: Panel, view: Array, limit: float, box: tuple[Array, Array]) -> PathCollection:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap
 
+    points = panel.points
     chosen = np.arange(len(points))
     if len(points) > _MOST_POINTS:
         chosen = np.random.default_rng(0).choice(len(points), _MOST_POINTS, replace=False)

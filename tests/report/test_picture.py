@@ -30,6 +30,7 @@ def test_the_view_is_orthonormal_and_on_the_scanned_side(direction):
 def test_any_size_of_deviation_is_drawn(tmp_path, panels, spread):
     random = np.random.default_rng(0)
     points = random.uniform(0, 10, (200, 3))
-    panel = Panel("State", spread * random.normal(size=200), [points[:5]])
-    draw(tmp_path / "p.png", "Title", points, np.tile([0.0, 0.0, 1.0], (200, 1)), [panel] * panels)
+    up, deviations = np.tile([0.0, 0.0, 1.0], (200, 1)), spread * random.normal(size=200)
+    states = [Panel("State", points[k:], up[k:], deviations[k:], [points[:5]]) for k in range(panels)]
+    draw(tmp_path / "p.png", "Title", states)
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
