@@ -82,14 +82,3 @@ def test_outliers_do_not_count():
     # means by a few hundredths; the standard deviation without robust weights would be 0.067.
     assert values.scatter.sensor == pytest.approx(sigma, rel=0.2)
     assert median_heights(found, start, FACE_OF_SPAN, PER_SPAN**2).height.std() < 2 * 0.02 / np.sqrt(0.64 * POINTS)
-
-
-def test_a_small_face_off_its_points_is_held_by_its_neighbours():
-    """A few points of the next face, taken for a narrow wall: nobody knows better where it is than by how they lie."""
-    height, total = np.zeros((SPANS, PER_SPAN**2)), np.full((SPANS, PER_SPAN**2), 4.0)
-    face = np.zeros(SPANS, dtype=int)
-    face[-2:] = 1
-    height[-2:] = 0.1
-    found = model_noise(height, total, face, np.full(2, 1e-4))
-    # 8 patches off by 0.1 mm, 8 differences of nothing, and 50 of the whole part's: √(8/66) of it.
-    assert found == pytest.approx([0.0, 0.1 * np.sqrt(8 / 66)], abs=1e-4)

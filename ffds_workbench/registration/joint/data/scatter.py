@@ -99,8 +99,7 @@ def model_noise(height: Array, total: Array, face_of_span: Index, sensor: Array)
     """Standard deviation of what the patches of a span do not share, beyond the sensor's noise: (faces,) in mm.
 
     Moment estimator: ``height`` and ``total`` (spans, k) are means and sums of weights of the cells. A face's own is
-    shrunk towards the whole part's by its count (James and Stein). A small face that lies off its points is no better
-    known than that: its neighbours hold it.
+    shrunk towards the whole part's by its count (James and Stein).
     """
     faces, weight = len(sensor), patch_sums(total)
     mean = patch_sums(total * height) / np.maximum(weight, 1e-12)
@@ -110,13 +109,10 @@ def model_noise(height: Array, total: Array, face_of_span: Index, sensor: Array)
     both = _first(seen) & _second(seen)
     excess = 0.5 * ((_first(mean) - _second(mean)) ** 2 - _first(noise) - _second(noise))[both]
     face = _first(owner)[both]
-    count = np.bincount(face, minlength=faces)
-    own = np.bincount(face, excess, faces)
-    small = seen & (count < _PRIOR_COUNT)[owner]
-    own += np.bincount(owner[small], (mean**2 - noise)[small], faces)
-    count += np.bincount(owner[small], minlength=faces)
     usual = max(float(np.quantile(excess, 0.75)), 0.0) if len(excess) else 0.0
-    whole = max(float(np.minimum(excess, _LARGEST_EXCESS * usual).mean()), 0.0) if len(excess) else 0.0
+    excess = np.minimum(excess, _LARGEST_EXCESS * usual)
+    count, own = np.bincount(face, minlength=faces), np.bincount(face, excess, faces)
+    whole = max(float(excess.mean()), 0.0) if len(excess) else 0.0
     return np.sqrt(np.maximum((own + _PRIOR_COUNT * whole) / (count + _PRIOR_COUNT), 0.0))
 
 
