@@ -1118,6 +1118,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>: {0}</translation>
     </message>
     <message>
+      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them.</source>
+      <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten.</translation>
+    </message>
+    <message>
       <source>A STEP file would {0}: write .brep or .FCStd, which keep them.</source>
       <translation>Eine STEP-Datei würde {0}: Schreiben Sie .brep oder .FCStd, die sie behalten.</translation>
     </message>
@@ -1394,6 +1398,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Isometrie „{0}“ ist unbekannt: Nehmen Sie eine von {1}.</translation>
     </message>
     <message>
+      <source>The job needs about {0} GB of memory and {1} GB are free: name the faces to deform, or check the units of model and scan.</source>
+      <translation>Die Aufgabe braucht etwa {0} GB Speicher, und {1} GB sind frei: Nennen Sie die Flächen, die verformt werden sollen, oder prüfen Sie die Einheiten von Modell und Scan.</translation>
+    </message>
+    <message>
       <source>The largest edge gap grew from {0} to {1} mm.</source>
       <translation>Die größte Lücke an einer Kante wuchs von {0} auf {1} mm.</translation>
     </message>
@@ -1462,10 +1470,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Das Modell {0} ist leer.</translation>
     </message>
     <message>
-      <source>The model {0} is not a valid shape (Part: Check geometry lists why): repair it first.</source>
-      <translation>Das Modell {0} ist keine gültige Form (Part: „Geometrie überprüfen“ nennt die Gründe): Reparieren Sie es zuerst.</translation>
-    </message>
-    <message>
       <source>The model {0} is of an unknown format: use one of {1}.</source>
       <translation>Das Modell {0} hat ein unbekanntes Format: Nehmen Sie eines von {1}.</translation>
     </message>
@@ -1476,6 +1480,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The nominal model has {0} {1} and the as-built one {2}: name the nominal model from which the as-built one was made.</source>
       <translation>Das Nennmodell hat {0} {1} und das Ist-Modell {2}: Nennen Sie das Nennmodell, aus dem das Ist-Modell entstand.</translation>
+    </message>
+    <message>
+      <source>The nominal model is not valid in {0} (Part: Check geometry lists why); of the as-built one {1} is not.</source>
+      <translation>Das Nennmodell ist in {0} nicht gültig (Part: Geometrie überprüfen nennt den Grund); vom Ist-Modell ist es {1} nicht.</translation>
     </message>
     <message>
       <source>The number of {0} changed from {1} to {2}.</source>
@@ -1550,8 +1558,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Das Programm hat keine Lagen mit X, Y und Z.</translation>
     </message>
     <message>
-      <source>The rebuilt shape is not valid: the displacement is too large or too uneven for this part.</source>
-      <translation>Die neu aufgebaute Form ist ungültig: Die Verschiebung ist zu groß oder zu ungleichmäßig für dieses Teil.</translation>
+      <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
+      <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
       <source>The registration did not converge (the last step was {0} mm): the scan does not hold the part; align it first, or freeze faces.</source>
@@ -1612,14 +1620,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan lies {0} mm off the part: align it with the model first.</source>
       <translation>Der Scan liegt {0} mm neben dem Teil: Richten Sie ihn zuerst am Modell aus.</translation>
-    </message>
-    <message>
-      <source>The scan measures {0} mm and the model {1} mm: the scan seems to be in {2}, not in {3} (use --scan-unit {4}).</source>
-      <translation>Der Scan misst {0} mm und das Modell {1} mm: Der Scan ist wohl in {2}, nicht in {3} (--scan-unit {4}).</translation>
-    </message>
-    <message>
-      <source>The scan measures {0} mm and the model {1} mm: they are not of the same part, or in other units.</source>
-      <translation>Der Scan misst {0} mm und das Modell {1} mm: Sie zeigen nicht dasselbe Teil, oder die Einheiten sind andere.</translation>
     </message>
     <message>
       <source>The scan observes no face of the model that may move: align the scan with the model, or name the faces.</source>
@@ -1802,8 +1802,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Form ist nicht mehr geschlossen.</translation>
     </message>
     <message>
-      <source>The shape is not valid.</source>
-      <translation>Die Form ist ungültig.</translation>
+      <source>The shape is not valid: {0}.</source>
+      <translation>Die Form ist nicht gültig: {0}.</translation>
     </message>
     <message>
       <source>The shape's BREP text is damaged: a record does not have the expected form.</source>
@@ -1854,8 +1854,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die {0}-Datei enthält das Modell nicht ganz und wurde nicht behalten: {1}</translation>
     </message>
     <message>
-      <source>The {0} file does not read back as a valid shape{1}.</source>
-      <translation>Die {0}-Datei ergibt beim Lesen keine gültige Form{1}.</translation>
+      <source>The {0} file does not read back as a valid shape ({1}){2}.</source>
+      <translation>Die Datei {0} ergibt beim Zurücklesen keine gültige Form ({1}){2}.</translation>
     </message>
     <message>
       <source>The {0} file does not read back as what was written: is the disk full?</source>
@@ -1910,16 +1910,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
-      <source>Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {0} mm, and the bands say so. Scan some of its border as well, or use a scan with normals.</source>
-      <translation>Welche Haut des Blechs der Scan zeigt, ist geraten: Alles kann um seine Dicke, {0} mm, daneben liegen, und die Bänder sagen es. Scannen Sie auch etwas von seinem Rand, oder nehmen Sie einen Scan mit Normalen.</translation>
-    </message>
-    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
     </message>
     <message>
       <source>a body of revolution about the axis ({0}, {1}, {2}), the same end for end</source>
-      <translation>ein Drehkörper um die Achse ({0}, {1}, {2}), von beiden Enden her gleich</translation>
+      <translation>ein Drehkörper um die Achse ({0}, {1}, {2}), an beiden Enden gleich</translation>
     </message>
     <message>
       <source>ambiguous ({0} poses): {1}</source>
