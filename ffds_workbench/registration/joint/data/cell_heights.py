@@ -37,8 +37,8 @@ def no_heights(cells: int, scatter: Scatter) -> CellHeights:
 
     Parameters
     ----------
-    cells : places on all faces, span by span
-    scatter : variances of the heights, sensor's and model's
+    cells : how many there are
+    scatter : standard deviations of the heights so far
     """
     return CellHeights(np.zeros(cells), np.zeros(cells), np.zeros(cells), scatter)
 
@@ -50,7 +50,7 @@ def median_heights(found: Correspondence, scatter: Scatter, face_of_span: Index,
     Parameters
     ----------
     found : the scan points with their cells
-    scatter : variances of the heights, sensor's and model's
+    scatter : standard deviations of the heights so far
     face_of_span : (spans,) number of the face
     per_span : cells of a span
     """
@@ -69,7 +69,7 @@ def median_heights(found: Correspondence, scatter: Scatter, face_of_span: Index,
 
 
 def tukey_mean_heights(found: Correspondence, scatter: Scatter, face_of_span: Index, per_span: int,
-                least: tuple[float, float]) -> CellHeights:
+                       least: tuple[float, float]) -> CellHeights:
     """Mean height of every cell with Tukey's biweight about the current surface, weighted n/(σ² + N τ²).
 
     The N points of a patch of cells share the error τ of the model. Noise σ and τ are measured anew, ``least`` are the
@@ -78,7 +78,7 @@ def tukey_mean_heights(found: Correspondence, scatter: Scatter, face_of_span: In
     Parameters
     ----------
     found : the scan points with their cells
-    scatter : variances of the heights, sensor's and model's
+    scatter : standard deviations of the heights so far
     face_of_span : (spans,) number of the face
     per_span : cells of a span
     """

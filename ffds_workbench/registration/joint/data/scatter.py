@@ -68,8 +68,8 @@ def sensor_noise(height: Array, cell: Index, mean: Array, count: Array, face: In
                  least: float) -> Array:
     """Standard deviation along the normals of the points on every face, (faces,) in mm, free of outliers.
 
-    From heights (n,) on faces (n,) about the ``mean`` (cells,) of their cells; ``known`` (faces,) is kept where no
-    points share a cell.
+    Of each ``height`` (n,) on its ``face`` (n,) about the ``mean`` (cells,) of their cells; ``known`` (faces,) is kept
+    where no points share a cell.
     """
     own = count[cell]
     several = np.flatnonzero(own > 1)

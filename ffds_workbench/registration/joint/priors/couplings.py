@@ -47,7 +47,7 @@ class Couplings:
     Parameters of the methods
     -------------------------
     control_points : (controls, 3) of the displacement in mm
-    trust : in the priors
+    trust : factor on the weight of sharp edges' angles
     """
 
     scalar: csr_matrix
