@@ -20,10 +20,7 @@ def robust_settings(request: RegistrationRequest) -> RobustSettings:
 def joint_settings(request: RegistrationRequest) -> JointSettings:
     """Settings of the whole part."""
     plain = JointSettings()
-    last = plain.schedule[-1].gate
-    schedule = tuple(replace(stage, gate=_gate(stage.gate, last, request.gate)) if stage.soft else stage
-                     for stage in plain.schedule)
-    return replace(plain, curvature_length=plain.curvature_length / math.sqrt(request.stiffness), schedule=schedule,
+    return replace(plain, curvature_length=plain.curvature_length / math.sqrt(request.stiffness), gate=request.gate,
                    isometry=request.isometry, sensor=request.sensor or SensorProfile())
 
 

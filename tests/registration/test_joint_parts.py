@@ -17,7 +17,7 @@ from ffds_workbench.registration.joint.linear.dissection import dissect
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
-from ffds_workbench.registration.joint.surfaces import span_counts
+from ffds_workbench.registration.joint.surfaces import solid_sizes, span_counts
 from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
 from ffds_workbench.registration.joint.surfaces.seam_closing import close_seams
 
@@ -35,7 +35,7 @@ def lattices(cylinder):
 
 
 def lattices_of(part):
-    return build_lattices(part.faces, span_counts(part.faces, part.solids, SPANS, TURNING, 1e-3))
+    return build_lattices(part.faces, span_counts(part.faces, solid_sizes(part.faces, part.solids), SPANS, TURNING, 1e-3))
 
 
 def fitted(lattices, faces, field):
@@ -75,7 +75,8 @@ def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
     angle = 0.1
     rotation = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
     points = fitted(lattices, cylinder.faces, lambda x: x @ rotation.T - x)
-    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES),
+                               np.ones(len(lattices.controls)))
     jet = stiffness.places.displaced(lattices, points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     inside = stiffness.places.inside
@@ -88,7 +89,8 @@ def test_rigid_rotation_costs_neither_bending_nor_strain(cylinder, lattices):
 
 
 def test_strain_derivative(cylinder, lattices):
-    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES),
+                               np.ones(len(lattices.controls)))
     random = np.random.default_rng(3)
     points, change = 0.1 * random.normal(size=(2, lattices.count, 3))
     thickness = np.zeros(len(lattices.controls))
@@ -101,7 +103,8 @@ def test_strain_derivative(cylinder, lattices):
 
 
 def test_strain_load_is_that_of_the_rows(cylinder, lattices):
-    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(cylinder.faces, lattices, GAUSS_PLACES),
+                               np.ones(len(lattices.controls)))
     random = np.random.default_rng(4)
     points = 0.1 * random.normal(size=(lattices.count, 3))
     thickness = np.full(len(lattices.controls), 3.0)
@@ -164,9 +167,9 @@ def plate_problem(random):
 def test_points_at_random_put_edges_where_they_are():
     problem = plate_problem(np.random.default_rng(11))
     still = np.zeros((problem.lattices.count, 3))
-    near = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, still, None)
+    near = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, still, problem.lengths, None)
     noise = problem.lengths.noise
-    found = find_borders(near, problem.couplings.edges, problem.sides, still, noise,
+    found = find_borders(near, problem.couplings.edges, problem.sides, still, problem.lengths,
                          np.full(len(problem.part.faces), noise), None)
     # The outermost of 10 points per mm² in strips of 40/32 mm or more: exponential, its deviation 0.08 mm or less.
     assert len(found.along) > 100

@@ -9,12 +9,13 @@ import Part
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
-from ffds_workbench.registration.joint.surfaces import span_counts
+from ffds_workbench.registration.joint.surfaces import solid_sizes, span_counts
 
 
 def counts(shape, least=1e-6, finer=None):
     part, settings = joint_part(read(shape)), JointSettings()
-    return span_counts(part.faces, part.solids, settings.spans, settings.turning, least, finer)
+    sizes = solid_sizes(part.faces, part.solids)
+    return span_counts(part.faces, sizes, settings.spans, settings.turning, least, finer)
 
 
 def tube(length, width, radius, wall):

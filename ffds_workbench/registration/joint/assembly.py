@@ -12,7 +12,8 @@ cell of the scan        n·d − h, height h in mm of its Tukey mean      W/(σ�
 visible border          m·d − offset, mm                              1/σ_b², and Huber's weight (`data/borders.py`)
 bending                 ∫ (change of curvature)² dA, no unit           1/(κ₀ l)², no unit; times the stage's multiple
 sliding                 the same within the surface                   0.3 of it × trust
-isometry                ∫ (strain of the mid surface)² dA, mm²         3000/mm² × trust on skins, 10/mm² on walls
+isometry                ∫ (strain of the mid surface)² dA / size²,     1/(ε₀ l)² × trust on skins, l over the size of
+                        no unit                                       the solid; less on walls
 thickness, shear        d_back − d_front + t (n − n₀), mm,            1/σ_t² × trust, once per square of the thickness
                         along the normal and across it
 dihedral                change of an edge's angle, rad                1/σ_a² × trust, one for all of an edge's length
@@ -128,7 +129,7 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
              - problem.couplings.scalar @ control_points)
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
-    stress = (np.where(problem.skin, skin, wall)[:, None] * stiffness.weight)[..., None] * strain
+    stress = (np.where(problem.skin, skin, wall)[:, None] * stiffness.stretched)[..., None] * strain
     right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
                                                    stress))
     return NormalEquations(blocks, right)
@@ -145,7 +146,7 @@ def strain_blocks(problem: Problem, control_points: Array) -> Array:
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
     flat = rows.reshape(len(rows), -1, 48)
-    weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
+    weight = np.repeat(stiffness.stretched, 3, axis=1)[:, :, None]
     blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
     result = np.empty((problem.pattern.size, 3, 3))
     for a, b in COMPONENTS:

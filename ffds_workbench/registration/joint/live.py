@@ -10,7 +10,7 @@ from ..arrays import Array
 from ..splines import SplineSurface
 from .prior_trust import update_prior_trust
 from .problem import Problem, make_problem
-from .settings import JointSettings, Stage, stages
+from .settings import JointSettings, Stage
 from .skins import candidate_outward_normals
 from .solve import gauss_newton_step
 from .state import State, start
@@ -40,7 +40,7 @@ class LiveJoint:
                                      None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
         self._state = replace(state, facing=candidate_outward_normals(self._problem, state.reach)[0][0])
-        for stage in stages(settings.schedule, state.reach):
+        for stage in settings.stages(self._problem.lengths):
             if not stage.all_points:
                 self._state = update_prior_trust(self._problem, self._state, stage)
                 self._state = _steps(self._problem, stage, self._state, stage.iterations)
@@ -49,8 +49,8 @@ class LiveJoint:
     def step(self, settings: JointSettings) -> list[SplineSurface]:
         """Displacements of all faces, d(u, v) in mm, one step nearer to what these weights and gates ask for."""
         problem = replace(self._problem, settings=_coarse(settings))
-        stage = replace([stage for stage in settings.schedule if not stage.all_points][-1],
-                        gate=settings.schedule[-1].gate)
+        steps = settings.stages(problem.lengths)
+        stage = replace([stage for stage in steps if not stage.all_points][-1], gate=steps[-1].gate)
         if settings.isometry != self._isometry:
             self._state = update_prior_trust(problem, self._state, stage)
             self._isometry = settings.isometry

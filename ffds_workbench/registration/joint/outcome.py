@@ -18,7 +18,6 @@ from .state import State
 from .surfaces import normals
 from .uncertainty import assess
 
-_NOT_CONVERGED = 0.5
 _TORN_STEP, _TORN_AREA = 0.5, 0.05
 """Faces that move by this share of the largest step wander; of the part's area they may be this share, so that the
 others hold them (units)."""
@@ -34,7 +33,7 @@ _LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
 
 def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
     """Small faces that still wander while the scan holds the part: they are torn between two places in it."""
-    if state.face_steps is None or state.last_step <= _NOT_CONVERGED:
+    if state.face_steps is None or state.last_step <= problem.lengths.not_converged:
         return ()
     wandering = state.face_steps > _TORN_STEP * state.last_step
     area = np.bincount(problem.face_of_cell, problem.area.ravel())
@@ -60,7 +59,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
     if not np.isfinite(moved) or moved > problem.size:
         raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({problem.size:.0f} mm): "
                            "align the scan first.")
-    if state.last_step > _NOT_CONVERGED:
+    if state.last_step > problem.lengths.not_converged:
         raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
                            "does not hold the part; align it first, or freeze faces.")
     _refuse_off_scan(problem, state)

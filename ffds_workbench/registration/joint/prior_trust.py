@@ -63,7 +63,7 @@ def cost_of_each_prior(problem: Problem, state: State) -> PriorTrust:
     couplings, stiffness, settings = problem.couplings, problem.stiffness, problem.settings
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
-    strain = (stiffness.weight * (strain**2).sum(axis=2)).sum(axis=1)
+    strain = (stiffness.stretched * (strain**2).sum(axis=2)).sum(axis=1)
     across, along = couplings.thickness_misfit(control_points, state.cache.thickness_rows.normal)
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return PriorTrust(isometry=float(problem.isometry_weights(PriorTrust())[0] * strain[problem.skin].sum()),

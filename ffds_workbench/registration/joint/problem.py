@@ -13,28 +13,37 @@ from scipy.sparse import bsr_matrix, csr_matrix
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from .constant_rows import ConstantRows, constant_rows
-from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
+from .data import EdgeSides, ScanStatistics, edge_sides, find_lengths, scan_statistics, trim_margin
 from .free_motions import FreeMotions, find_free_motions
 from .linear import Pattern
 from .linear.memory import refuse_too_large
-from .lengths import Lengths, find_lengths
+from .lengths import Lengths
 from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
                      make_stiffness)
 from .settings import JointSettings
-from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals,
-                       span_counts)
+from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, cell_sides, distance_to_trims, make_span_grid,
+                       normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
 _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
-_TRIM_MARGIN = 0.7
+_TRIM_MARGIN = 0.55
+"""Over the side of a cell: nearer to the border of a face, a cell would hold points of its neighbour (theory: half of
+it, and a little for what a shape is off)."""
+_FARTHEST_IN_MARGINS = 4.0
+"""Distances from the border are known up to this (theory: nothing asks for more)."""
 _CELLS_PER_SPAN = (3, 10)
 _SAME_NORMAL = 0.02
 """The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
 thousand."""
 _WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
+_STRAIN_LASTS = 0.004
+"""Of the size of the least solid: by this far it moves before its strain is looked at anew (unit: a small share of a
+span, in which no face turns so far that the steps would go astray)."""
+_MATCHES_LAST = 0.08
+"""Over the usual side of a cell: after smaller steps, points keep their cells (unit: a small share of a cell)."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +72,8 @@ class Problem:
     free_motions : of solids in themselves, of which no scan tells
     distance_to_nominal : (n,) of the points of the sample, in mm; infinite beyond the size of the part
     margin : (spans,) distance from the border that scan points must keep, in mm
+    body_size : (spans,) size in mm of the solid that a span belongs to
+    cell_side : usual length in mm of the sides of the cells
     """
 
     part: JointPart
@@ -83,6 +94,8 @@ class Problem:
     lengths: Lengths
     free_motions: FreeMotions
     distance_to_nominal: Array
+    body_size: Array
+    cell_side: float
     sample_normals: Array | None = None
 
     def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
@@ -101,6 +114,16 @@ class Problem:
     def size(self) -> float:
         """Diagonal of the box around the nominal cells, in mm."""
         return self.lengths.size
+
+    @property
+    def strain_lasts(self) -> float:
+        """How far the shape may move before its strain is looked at anew, in mm."""
+        return _STRAIN_LASTS * float(self.body_size.min())
+
+    @property
+    def matches_last(self) -> float:
+        """After a step smaller than this in mm, points keep their cells."""
+        return _MATCHES_LAST * self.cell_side
 
     @property
     def face_of_cell(self) -> Index:
@@ -126,9 +149,10 @@ class Problem:
         return list(zip(skin[starts].tolist(), starts.tolist(), ends.tolist(), strict=True))
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
-        """Weight of the strain per mm² of skins and of walls, which may stretch more."""
-        weight = self.settings.isometry_weight * trust.isometry
-        return weight, min(_WALL_ISOMETRY * weight, self.settings.isometry_weight_walls)
+        """Weight of the strain of skins and of walls, which may stretch more, per area over the solid's size squared."""
+        settings = self.settings
+        weight = trust.isometry / (settings.strain * settings.strain_length) ** 2
+        return weight, min(_WALL_ISOMETRY * weight, 1 / (settings.strain_walls * settings.strain_length) ** 2)
 
 
 def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: dict[int, int],
@@ -147,17 +171,21 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     sample = scan[pick]
     statistics = scan_statistics(scan)
     least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
-    lattices = build_lattices(part.faces, span_counts(part.faces, part.solids, settings.spans, settings.turning, least,
-                                                      finer))
+    sizes = solid_sizes(part.faces, part.solids)
+    lattices = build_lattices(part.faces, span_counts(part.faces, sizes, settings.spans, settings.turning, least, finer))
+    body_size = sizes[lattices.face_of_span]
     refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
-    stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES))
+    stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES), body_size)
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
-    distance = distance_to_trims(part.faces, lattices, cells)
-    lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
-    couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, sizes,
+                       settings.thickness_change)
+    lengths, apart = find_lengths(lattices, cells, sample, statistics)
+    side = cell_sides(lattices, cells)
+    margin = np.maximum(_TRIM_MARGIN * side, lengths.noise)
+    distance = distance_to_trims(part.faces, lattices, cells, side, _FARTHEST_IN_MARGINS * margin)
+    couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells, sizes), settings, lengths,
                                len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
@@ -165,8 +193,9 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     area = np.where(cells.inside, area, 0.0)
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
                    pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths,
-                   find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
+                   trim_margin(lattices, distance, margin), lengths,
+                   find_free_motions(part, lattices, cells, area, couplings.scalar), apart, body_size,
+                   float(np.median(side[lattices.face_of_span])),
                    None if scan_normals is None else scan_normals[pick])
 
 

@@ -7,6 +7,8 @@ from typing import Literal
 
 import numpy as np
 
+from .lengths import Lengths
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -15,9 +17,10 @@ class Stage:
     Attributes
     ----------
     bending : multiplies the bending weight
-    gate : scan points farther than this from the model are left out, in mm
+    gate : scan points farther than this from the model are left out, over the reach; in mm once it is one of `stages`
     iterations : most Gauss-Newton steps
-    enough : the stage is over when no point moves farther in a step, in mm
+    enough : the stage is over when no point moves farther in a step, over the gate or, of a soft stage, the noise; in mm
+        once it is one of `stages`
     soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
     body : what the body tells of its faces counts as well, and the priors keep the trust that they have
@@ -34,17 +37,11 @@ class Stage:
     allowance: float = 1.0
 
 
-SCHEDULE = (Stage(1e3, 3.0, 6, 0.6), Stage(1e2, 2.0, 6, 0.4), Stage(10, 1.5, 6, 0.3), Stage(1, 1.2, 6, 0.2),
-            Stage(1, 1.2, 8, 0.04, soft=True, allowance=0.05), Stage(1, 0.6, 8, 0.02, soft=True, all_points=True),
-            Stage(1, 0.6, 4, 0.02, soft=True, all_points=True, body=True))
-
-
-def stages(schedule: tuple[Stage, ...], reach: float) -> tuple[Stage, ...]:
-    """The schedule for a scan up to ``reach`` mm away: wider gates and more steps before the soft stages."""
-    scale = max(1.0, reach / schedule[0].gate)
-    return tuple(stage if stage.soft else replace(stage, gate=stage.gate * scale,
-                                                  iterations=int(np.ceil(stage.iterations * scale)))
-                 for stage in schedule)
+SCHEDULE = (Stage(1e3, 1.0, 6, 0.2), Stage(1e2, 0.67, 6, 0.2), Stage(10, 0.5, 6, 0.2), Stage(1, 0.4, 6, 0.2),
+            Stage(1, 0.4, 8, 0.4, soft=True, allowance=0.05), Stage(1, 0.2, 8, 0.2, soft=True, all_points=True),
+            Stage(1, 0.2, 4, 0.2, soft=True, all_points=True, body=True))
+_USUAL_REACH = 0.025
+"""Of the size of the part: a scan that is farther away takes more steps in the stiff stages (unit)."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +71,8 @@ class SensorProfile:
 
 @dataclass(frozen=True)
 class JointSettings:
-    """How the joint solve is to work; the defaults were measured on sheet parts of 50–150 mm.
+    """How the joint solve is to work; no default has a unit of length but that of the curvature, whose product with
+    its length has none.
 
     Attributes
     ----------
@@ -82,12 +80,12 @@ class JointSettings:
     turning : largest turn of the normal over a span in rad, of faces as round as their solid is large
     isometry : "auto" decides from the strain found, "on" keeps sheets inextensible, "off" lets them stretch
     curvature, curvature_length : expected change of curvature κ₀ in 1/mm over l in mm; bending weighs 1/(κ₀ l)²
-    isometry_weight, isometry_weight_walls : weight of the strain per mm², on walls at most the second
-    thickness_sigma : how well a sheet keeps its thickness, in mm
-    edge_sigma : how well faces agree along an edge, in mm
+    strain, strain_walls : expected strain of skins, and the least that walls are expected to have
+    strain_length : over which it varies, over the size of the solid; strain weighs 1/(strain · length)² per area
+    thickness_change : expected change of the thickness of a sheet, over the thickness
     dihedral_sigma : how well an edge keeps its angle, in rad
-    pose_sigma : how far a solid may sit from its place, in mm
     schedule : the stages
+    gate : in mm, of the last stages in place of the schedule's; earlier soft ones narrow towards it
     sensor : noise of the sensor
     refine : divide the spans of faces whose residual exceeds the noise
     seed : of the random sample of scan points
@@ -98,13 +96,25 @@ class JointSettings:
     isometry: Literal["auto", "on", "off"] = "auto"
     curvature: float = 0.002
     curvature_length: float = 10.0
-    isometry_weight: float = 3000.0
-    isometry_weight_walls: float = 10.0
-    thickness_sigma: float = 0.02
-    edge_sigma: float = 3e-4
+    strain: float = 0.0015
+    strain_walls: float = 0.0285
+    strain_length: float = 0.09
+    thickness_change: float = 0.0067
     dihedral_sigma: float = 0.01
-    pose_sigma: float = 1.0
     schedule: tuple[Stage, ...] = SCHEDULE
+    gate: float | None = None
     sensor: SensorProfile = field(default_factory=SensorProfile)
     refine: bool = True
     seed: int = 0
+
+    def stages(self, lengths: Lengths) -> tuple[Stage, ...]:
+        """The schedule with its gates and what is enough in mm; the farther away the scan, the more stiff steps."""
+        more = max(1.0, lengths.reach / (_USUAL_REACH * lengths.size))
+        last = self.schedule[-1].gate
+        result = []
+        for stage in self.schedule:
+            gate = stage.gate * (lengths.reach if self.gate is None or not stage.soft else self.gate / last)
+            result.append(replace(stage, gate=max(gate, lengths.farthest_noise),
+                                  enough=stage.enough * (lengths.point if stage.soft else gate),
+                                  iterations=stage.iterations if stage.soft else int(np.ceil(stage.iterations * more))))
+        return tuple(result)

@@ -24,7 +24,7 @@ from .linear import solve_normal_equations
 from .outcome import refuse_unsound, summarise, torn_faces
 from .prior_trust import is_isometric, may_be_isometric, update_prior_trust
 from .problem import Problem, make_problem
-from .settings import JointSettings, Stage, stages
+from .settings import JointSettings, Stage
 from .skins import candidate_outward_normals, choose_skin, outward_normals_of_all
 from .state import State, StepCache, start
 from .surfaces import Jet, JointPart, close_seams
@@ -34,13 +34,9 @@ Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
 """While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
 times the last one: shapes follow it slowly."""
-_NO_MORE_STIFF_STAGES = 0.05
-"""If a stiff stage ends with a step smaller than this in mm, the remaining stiff stages are skipped."""
-_MATCHES_LAST = 0.1
-"""After a step smaller than this in mm, points keep their cells: it is a small share of a cell."""
-_STRAIN_LASTS = 0.5
-"""The strain matrices are kept until the shape has moved by this in mm: by a small share of a span no face turns so far
-that the steps would go astray."""
+_NO_MORE_STIFF_STAGES = 0.5
+"""If a stiff stage ends with a step smaller than this many times the scatter of the points about a stiff shape, the
+remaining ones are skipped."""
 _FACTOR_LASTS = 0.03
 """A factor is not used for a matrix with less than this share of its bending weight."""
 
@@ -53,7 +49,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     ----------
     part : the faces, edges and solids
     scan : (n, 3) points in mm, in the frame of the part
-    settings : weights and schedule; the defaults suit sheet parts of 50–150 mm
+    settings : weights and schedule; the defaults suit parts of any size
     progress : called as ``progress("stage", fraction)``
     scan_normals : (n, 3) unit normals that the scan brings, zero where it has none; they tell the skins of thin sheets
         apart, and are left aside where they contradict each other or the part
@@ -68,7 +64,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     report = progress or (lambda stage, share: None)
     problem = make_problem(part, scan, settings, {}, scan_normals)
     state = start(problem)
-    steps = stages(settings.schedule, state.reach)
+    steps = settings.stages(problem.lengths)
     report("joint solve", 0.0)
     sides, told = candidate_outward_normals(problem, state.reach)
     state = choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, facing=outward), len(sides) > 1)
@@ -95,7 +91,7 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
     """The stiff stages, some of which may be skipped; fits that are ``compared`` all end with the last one."""
     stiff = [stage for stage in steps if not stage.soft]
     for stage in stiff:
-        if state.last_step > _NO_MORE_STIFF_STAGES or (compared and stage is stiff[-1]):
+        if state.last_step > _NO_MORE_STIFF_STAGES * problem.lengths.start or (compared and stage is stiff[-1]):
             state = run_stage(problem, stage, state)
     return state
 
@@ -180,8 +176,8 @@ def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Corre
     """The scan points of the stage with their cells on the current shape."""
     points = problem.scan if stage.all_points else problem.sample
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    gate = max(stage.gate, 4 * problem.lengths.noise)
-    found = correspond(points, frames, gate, state.cache.nearest if state.last_step < _MATCHES_LAST else None,
+    found = correspond(points, frames, stage.gate,
+                       state.cache.nearest if state.last_step < problem.matches_last else None,
                        state.cache.facing if stage.all_points else state.facing)
     if not len(found.point):
         raise RefusedError("No scan point lies near the part: check the unit of the scan and align it first.")
@@ -200,12 +196,12 @@ def _weigh(problem: Problem, stage: Stage, found: Correspondence, scatter: Scatt
 def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> StepCache:
     """The cache, renewed where the shape has moved too far since."""
     cache, control_points = state.cache, state.control_points
-    if cache.moved > _STRAIN_LASTS:
+    if cache.moved > problem.strain_lasts:
         cache = replace(cache, strain_matrices=strain_blocks(problem, control_points), moved=0.0)
     if stage.soft:
         edges, sides = problem.couplings.edges, problem.sides
-        near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
-        borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
+        near_edges = find_near_edges(problem.scan, edges, sides, control_points, problem.lengths, cache.near_edges)
+        borders = find_borders(near_edges, edges, sides, control_points, problem.lengths,
                                np.maximum(state.values.scatter.loss, problem.lengths.border), cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:

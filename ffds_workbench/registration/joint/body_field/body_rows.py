@@ -97,7 +97,7 @@ def body_rows(problem: Problem, control_points: Array, jet: Jet, values: CellHei
     some = np.arange(0, len(seen.value), 1 + len(seen.value) // _POSE_PLACES)
     pose = Pose.of(seen.place[some], seen.body[some])
     information = len(problem.scan) / problem.lengths.start**2
-    field = condition(model, seen, pose, 1 / pose_weight(problem.settings, information))
+    field = condition(model, seen, pose, 1 / pose_weight(problem.lengths, information))
     spans = np.flatnonzero(cells.inside.any(axis=1))
     middle = np.where(cells.inside[spans], ((cells.local - 0.5) ** 2).sum(axis=1), np.inf).argmin(axis=1)
     place = cells.nominal.position[spans, middle]

@@ -20,8 +20,8 @@ _TRIED_LENGTHS = (0.06, 0.1, 0.16, 0.25, 0.4, 0.7)
 """Tried for the length over which the field changes, relative to the extent of the places."""
 _TRIED_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 """Tried for the variance of the noise, relative to that of the field."""
-_LEAST_VARIANCE = 1e-12
-"""Variance in mm² of a part that has not moved at all."""
+_LEAST_MOVEMENT = 1e-8
+"""Standard deviation of a part that has not moved at all, over the extent of the places (unit)."""
 _LIKELIHOOD_SAMPLE = 400
 """Number of observations that the likelihood is computed from."""
 
@@ -156,7 +156,7 @@ def most_likely_model(seen: Observations) -> FieldModel:
         while around:
             for length, noise in around:
                 model = replace(models[length], noise=_TRIED_NOISES[noise])
-                tried[length, noise] = _likelihood(model, few, between(length))
+                tried[length, noise] = _likelihood(model, few, between(length), (_LEAST_MOVEMENT * extent) ** 2)
             start = max(tried, key=lambda at: tried[at][0])
             around = [at for at in _grid_neighbours(*start) if at not in tried]
         best = max(best, tried[start], key=lambda found: found[0])
@@ -187,11 +187,12 @@ def _grid_neighbours(length: int, noise: int) -> list[tuple[int, int]]:
                         range(max(0, noise - 1), min(noise + 2, len(_TRIED_NOISES)))))
 
 
-def _likelihood(model: FieldModel, seen: Observations, between: Array) -> tuple[float, FieldModel]:
-    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance."""
+def _likelihood(model: FieldModel, seen: Observations, between: Array, least: float) -> tuple[float, FieldModel]:
+    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance, the ``least`` one
+    in mm² or more."""
     factor = cholesky(between + np.diag(model.noise * seen.noise), lower=True, check_finite=False)
     white = solve_triangular(factor, seen.value, lower=True, check_finite=False)
-    variance = max(float(white @ white) / len(white), _LEAST_VARIANCE)
+    variance = max(float(white @ white) / len(white), least)
     score = -0.5 * len(white) * np.log(variance) - np.log(np.diag(factor)).sum()
     return float(score), replace(model, variance=variance)
 

@@ -14,29 +14,29 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
+from ..lengths import Lengths
 from ..priors import SharedEdgePlaces
 from ..surfaces import FacePlaces, concatenate
 
-_SEARCH_REACH = 4.0
-_LARGEST_OFFSET = 2.0
-"""Scan points belong to the nearest edge sample within the first distance (mm); a border farther from its edge than the
-second one is ignored."""
-_POINTS_LAST = 0.2
-"""Points keep their edge samples until the edges have moved by this in mm; the samples are farther apart."""
-_BORDERS_LAST = 0.03
-"""Borders are kept until the edges have moved by this in mm."""
+_LARGEST_OFFSET = 6.0, 0.7
+"""A border farther from its edge than this many spacings of points, or this part of the reach, is ignored; scan points
+belong to the nearest edge sample within twice of it."""
+_POINTS_LAST = 0.6
+"""Points keep their edge samples until the edges have moved by this many spacings; the samples are farther apart."""
+_BORDERS_LAST = 0.1
+"""Borders are kept until the edges have moved by this many spacings of points."""
 _SHARP_COSINE = 0.7
 _LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by the spacing of one point, as for randomly placed points. Noise carries
 points over the edge: where more than one lies within this part of the noise, the second or third outermost is used."""
-_DENSITY_BAND = (0.5, 2.0)
-"""Distance inside the outermost points, in mm, between which the density is counted."""
+_DENSITY_BAND = (1.5, 6.0)
+"""Distance inside the outermost points, in spacings, between which the density is counted."""
 _LEAST_BAND_POINTS = 12
 _SEEN_BEYOND_SHARE = 0.15
-_LEAST_UNCERTAINTY = 0.05
-"""Uncertainty in mm of a visible border, even in a dense scan: mixed pixels, edge radius."""
-_USUAL_LOSS = 0.3
-"""Sensors lose points at edges and never see any beyond them: an end farther inside than this, in mm, gets less
+_LEAST_UNCERTAINTY = 0.15
+"""Uncertainty of a visible border in spacings of points: mixed pixels, edge radius."""
+_USUAL_LOSS = 1.0
+"""Sensors lose points at edges and never see any beyond them: an end farther inside than this, in spacings, gets less
 weight."""
 _HUBER_SIGMAS = 2.0
 _DISCARD_HUBERS = 3.0
@@ -112,7 +112,7 @@ class NearEdges:
 
 
 def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array,
-                    known: NearEdges | None) -> NearEdges:
+                    lengths: Lengths, known: NearEdges | None) -> NearEdges:
     """The scan points (at most some 250 000, evenly taken) near any sharp edge of the current shape; those that are
     ``known`` while the edges hardly move.
 
@@ -120,36 +120,37 @@ def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, co
     ----------
     sides : which way the faces lie at their edges
     control_points : (controls, 3) of the displacement in mm
+    lengths : of the solve
     """
     sharp = np.flatnonzero(sides.sharp)
     place = _sharp_edges(edges, sides, control_points)
-    if known is not None and np.abs(place - known.place).max(initial=0.0) < _POINTS_LAST:
+    if known is not None and np.abs(place - known.place).max(initial=0.0) < _POINTS_LAST * lengths.spacing:
         return known
     points = points[:: 1 + len(points) // _MOST_POINTS]
     if not len(sharp):
         return NearEdges(points[:0], sharp, place)
-    nearest = cKDTree(place).query(points, distance_upper_bound=_SEARCH_REACH, workers=-1)[1]
+    nearest = cKDTree(place).query(points, distance_upper_bound=2 * _largest_offset(lengths), workers=-1)[1]
     near = np.flatnonzero(nearest < len(sharp))
     return NearEdges(points[near], sharp[nearest[near]], place)
 
 
-def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, noise: float,
+def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, lengths: Lengths,
                  spread: Array, known: Borders | None) -> Borders:
     """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
-    edges lie where they were looked for. ``noise`` is that of the points, ``spread`` (faces,) that of the points about
-    the shape as it is, in mm.
+    edges lie where they were looked for. ``spread`` (faces,) is that of the points about the shape as it is, in mm.
 
     Parameters
     ----------
     sides : which way the faces lie at their edges
     control_points : (controls, 3) of the displacement in mm
+    lengths : of the solve
     """
     shape = _sharp_edges(edges, sides, control_points)
-    if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST:
+    if known is not None and np.abs(shape - known.shape).max(initial=0.0) < _BORDERS_LAST * lengths.spacing:
         return known
     points, row = near.points, near.row
     pairs = (edges.first, edges.second), (edges.second, edges.first)
-    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise,
+    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, lengths,
                        spread)
              for k, (seen, other) in enumerate(pairs)]
     rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
@@ -160,6 +161,11 @@ def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, con
     return Borders(samples, direction, along, weight, shape)
 
 
+def _largest_offset(lengths: Lengths) -> float:
+    """How far a border may lie from its edge, in mm."""
+    return max(_LARGEST_OFFSET[0] * lengths.spacing, _LARGEST_OFFSET[1] * lengths.reach)
+
+
 def _sharp_edges(edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array) -> Array:
     """Current places of the samples on sharp edges: (n, 3)."""
     sharp = edges.first.take(np.flatnonzero(sides.sharp))
@@ -167,10 +173,11 @@ def _sharp_edges(edges: SharedEdgePlaces, sides: EdgeSides, control_points: Arra
 
 
 def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlaces, other: FacePlaces, sign: Array,
-              sharp: NDArray[np.bool_], control_points: Array, noise: float, spread: Array
+              sharp: NDArray[np.bool_], control_points: Array, lengths: Lengths, spread: Array
               ) -> tuple[Array, Array, Array]:
     """Direction, offset and weight at every edge sample for one of its faces; weight 0 where nothing can be said."""
-    count = len(edges.edge)
+    count, spacing = len(edges.edge), lengths.spacing
+    first, last = spacing * _DENSITY_BAND[0], spacing * _DENSITY_BAND[1]
     place = seen.nominal[0] + seen.displacement(control_points)
     normal, out = _across(edges, seen, sign[0], control_points)
     beyond, away = _across(edges, other, sign[1], control_points)
@@ -181,26 +188,26 @@ def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlac
     across = np.einsum("nx,nx->n", local, out[row])
     on_seen = np.abs(np.einsum("nx,nx->n", local, normal[row])) < 4 * spread[seen.face[row]]
     on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * spread[other.face[row]]) & (
-        np.einsum("nx,nx->n", local, away[row]) < -_DENSITY_BAND[0])
-    unlike = ~on_seen & (on_other | (across > -_DENSITY_BAND[0]))
+        np.einsum("nx,nx->n", local, away[row]) < -first)
+    unlike = ~on_seen & (on_other | (across > -first))
     outermost = _from_top(row[on_seen], across[on_seen], count)
     inside = outermost[-1, row] - across
     population, strange, samples = (
         _running(np.nansum, edges.edge, values) for values in
-        (_count(row[on_seen & (inside > _DENSITY_BAND[0]) & (inside < _DENSITY_BAND[1])], count),
+        (_count(row[on_seen & (inside > first) & (inside < last)], count),
          _count(row[unlike], count), np.ones(count)))
-    per_mm = np.maximum(population / samples / (_DENSITY_BAND[1] - _DENSITY_BAND[0]), 1e-9)
-    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * per_mm), 1, _LARGEST_RANK).astype(int)
+    per_mm = np.maximum(population, 1.0) / samples / (last - first)
+    rank = np.clip(np.ceil(_WITHIN_NOISE * lengths.noise * per_mm), 1, _LARGEST_RANK).astype(int)
     offset = outermost[rank - 1, np.arange(count)] + rank / per_mm
     good = (sharp & (population >= _LEAST_BAND_POINTS) & (strange < _SEEN_BEYOND_SHARE * population)
-            & (np.abs(offset) < _LARGEST_OFFSET))
+            & (np.abs(offset) < _largest_offset(lengths)))
     if not good.any():
         return nothing
-    sigma = np.hypot(_LEAST_UNCERTAINTY, np.sqrt(rank) / per_mm)
+    sigma = np.hypot(_LEAST_UNCERTAINTY * spacing, np.sqrt(rank) / per_mm)
     around = _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))
     off = np.abs(offset - around) / (_HUBER_SIGMAS * sigma)
     good &= off < _DISCARD_HUBERS
-    missing = 1 + (np.minimum(around, 0.0) / _USUAL_LOSS) ** 2
+    missing = 1 + (np.minimum(around, 0.0) / (_USUAL_LOSS * spacing)) ** 2
     return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * missing * sigma**2), 0.0)
 
 

@@ -31,6 +31,7 @@ class Frames:
     form : (m, 3) second fundamental form, uu, uv and vv
     size : (m, 2) of the cell in (u, v)
     allowed : (m,) whether the cell is far enough from the border of its face to hold points
+    beside : how far from the centre of its cell a foot point may lie, in mm
     """
 
     cell: Index
@@ -40,6 +41,7 @@ class Frames:
     form: Array
     size: Array
     allowed: NDArray[np.bool_]
+    beside: float
 
 
 @dataclass(frozen=True)
@@ -79,9 +81,11 @@ def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, di
     det = np.maximum(e * g - f * f, 1e-12)
     step = np.stack([g[:, None] * tangents[:, 0] - f[:, None] * tangents[:, 1],
                      e[:, None] * tangents[:, 1] - f[:, None] * tangents[:, 0]], axis=1) / det[:, None, None]
+    size = lattices.step[span] / per_span
+    beside = _WITHIN_CELL * np.sqrt(np.maximum(e, 0) * size[:, 0] ** 2 + np.maximum(g, 0) * size[:, 1] ** 2)
     return Frames(span * cells.inside.shape[1] + place, jet.position[span, place], normal, step,
-                  np.einsum("npx,nx->np", seconds, normal), lattices.step[span] / per_span,
-                  distance[span, place] > margin[span])
+                  np.einsum("npx,nx->np", seconds, normal), size, distance[span, place] > margin[span],
+                  float(beside.max(initial=0.0)))
 
 
 def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None,
@@ -96,7 +100,7 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     """
     if nearest is None:
         tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
-        nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
+        nearest = tree.query(points, distance_upper_bound=gate + frames.beside, workers=-1)[1]
         if facing is not None:
             nearest = _rematch_wrong_side(points, facing, frames, nearest, gate)
     point = np.flatnonzero(nearest < len(frames.position))
@@ -126,8 +130,9 @@ def _rematch_wrong_side(points: Array, facing: Array, frames: Frames, nearest: I
     return result
 
 
-def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:
-    """How far from the border a face holds points: ``most`` mm, or half of its half width if that is less: (spans,).
+def trim_margin(lattices: Lattices, distance: Array, most: Array) -> Array:
+    """How far from the border a face holds points: ``most`` mm, (faces,), or half of its half width if that is less:
+    (spans,).
 
     Parameters
     ----------

@@ -10,20 +10,22 @@ from ...arrays import Array
 from ..surfaces import JointPart, Lattices, SpanGrid, normals, places_on_faces
 from .sheet_pairs import parameters
 
-_CONTACT_GAP = 0.05
+_CONTACT_GAP = 4e-4
+"""Over the size of a solid: what lies nearer to it touches it (unit: twice as much as parts are made to fit)."""
 _WITHIN_CELL = 0.75
 
 
-def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_matrix:
+def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid, sizes: Array) -> csr_matrix:
     """Rows d_a − d_b, equal weights adding up to one per pair of solids: (contacts, controls).
 
-    Contacts are places along the edges of one solid that lie within 0.05 mm of a face of another one.
+    Contacts are places along the edges of one solid that lie on a face of another one.
 
     Parameters
     ----------
     part : the faces, edges and solids
     lattices : of all faces
     cells : places on all faces, span by span
+    sizes : (faces,) size in mm of the solid of every face
     """
     owner = part.solid_of_face
     edges = [edge for edge in part.edges if edge.faces and not edge.degenerate]
@@ -34,7 +36,8 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
     face = np.concatenate([np.full(len(edge.points), edge.faces[0]) for edge in edges])
     uv = np.concatenate([edge.uv[0] for edge in edges])
     normal = normals(cells.nominal, cells.outward)[0]
-    reach = _CONTACT_GAP + _cell_sizes(lattices, cells)
+    gap = _CONTACT_GAP * sizes[lattices.face_of_span]
+    reach = gap + _cell_sizes(lattices, cells)
     for number in range(len(part.solids)):
         span, place = np.nonzero(cells.inside & (owner[lattices.face_of_span] == number)[:, None])
         other = np.flatnonzero(owner[face] != number)
@@ -47,7 +50,7 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
         metric = np.einsum("nax,nbx->nab", tangents, tangents)
         step = np.linalg.solve(metric, np.einsum("nax,nx->na", tangents, offset)[:, :, None])[:, :, 0]
         size = lattices.step[span] / np.sqrt(cells.inside.shape[1])
-        touching = ((np.abs(np.einsum("nx,nx->n", offset, normal[span, place])) < _CONTACT_GAP)
+        touching = ((np.abs(np.einsum("nx,nx->n", offset, normal[span, place])) < gap[span])
                     & (np.abs(step) < _WITHIN_CELL * size).all(axis=1))
         there = parameters(lattices, cells, span, place) + step
         for neighbour in np.unique(owner[face[other[touching]]]):

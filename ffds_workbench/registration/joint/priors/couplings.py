@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 from scipy.sparse import bsr_matrix, csr_matrix, diags, vstack
 
 from ...arrays import Array
+from ..lengths import Lengths
 from ..settings import JointSettings
 from ..surfaces import JointPart, Lattices, places_on_faces
 from .shared_edges import SharedEdgePlaces, shared_edge_places
 from .sheet_pairs import SheetPairs
 
-_FROZEN_WEIGHT = 1e9
+_FROZEN = 0.1
+"""Standard deviation of faces that must not move, over that with which faces agree along an edge (unit: far less)."""
 _POSE_SHARE, _CONTACT_SHARE = 1e-5, 1e-3
 _METRIC_RIDGE = 1e-9
 _SMOOTH_ANGLE = 0.2
@@ -113,7 +115,7 @@ class Couplings:
 
 
 def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, contacts: csr_matrix,
-                   settings: JointSettings, information: float) -> Couplings:
+                   settings: JointSettings, lengths: Lengths, information: float) -> Couplings:
     """All constant rows of a part; ``information`` in 1/mm² is what the whole scan weighs, ``contacts`` the rows of
     `contact_rows`.
 
@@ -122,6 +124,7 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     lattices : of all faces
     pairs : places on opposite skins of sheets
     settings : weights of the priors
+    lengths : of the solve
     """
     count = lattices.count
     edges = shared_edge_places(part, lattices)
@@ -129,12 +132,12 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     thickness_rows = pairs.back.matrix(count) - pairs.front.matrix(count)
     # One pair is one independent statement per square of the thickness; closer ones share it.
     thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
-                        / np.maximum(settings.thickness_sigma, pairs.give) ** 2)
+                        / pairs.give**2)
     hinges = edges.take(edges.angled)
     dihedral_rows = _dihedral_rows(hinges, lattices)
     dihedral_weight = hinges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
-    scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
-              + diags(_anchor(part, lattices, settings, information)))
+    scalar = (lengths.together**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
+              + diags(_anchor(part, lattices, lengths, information)))
     shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
@@ -146,29 +149,29 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
                      smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
 
 
-def pose_weight(settings: JointSettings, information: float) -> float:
+def pose_weight(lengths: Lengths, information: float) -> float:
     """What is known of the pose of a solid before it is seen, in 1/mm².
 
     Parameters
     ----------
-    settings : weights of the priors
+    lengths : of the solve
     information : what the whole scan weighs, in 1/mm²
     """
-    return max(settings.pose_sigma**-2, _POSE_SHARE * information)
+    return max(lengths.pose**-2, _POSE_SHARE * information)
 
 
-def _anchor(part: JointPart, lattices: Lattices, settings: JointSettings, information: float) -> Array:
+def _anchor(part: JointPart, lattices: Lattices, lengths: Lengths, information: float) -> Array:
     """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs.
 
     The prior is also worth a small share of the scan, which no observed motion feels: a motion that nothing observes (a
     body of revolution about its axis) must not follow what is left of errors elsewhere.
     """
     weight = np.zeros(lattices.count)
-    prior = pose_weight(settings, information)
+    prior = pose_weight(lengths, information)
     for solid in part.solids:
         own = np.isin(lattices.face_of_control, solid)
         weight[own] = prior / max(own.sum(), 1)
-    weight[np.isin(lattices.face_of_control, list(part.frozen))] = _FROZEN_WEIGHT
+    weight[np.isin(lattices.face_of_control, list(part.frozen))] = (_FROZEN * lengths.together) ** -2
     return weight
 
 

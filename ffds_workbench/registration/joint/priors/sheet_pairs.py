@@ -11,14 +11,15 @@ from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
 from ..surfaces import FacePlaces, Lattices, SpanGrid, normals, places_on_faces
 
-_NORMAL_SCALE = 20.0
-"""Millimetres that a unit of difference between normals counts for when opposite places are looked for."""
+_NORMAL_SCALE = 1 / 6
+"""Of the size of the solid: what a unit of difference between normals counts for when opposite places are looked for
+(unit)."""
 _OPPOSITE_COSINE = -0.95
 _LEAST_SHEET_SHARE = 0.5
 _LEAST_SLENDERNESS = 5.0
 _SAME_THICKNESS = 0.08
 _MASSIVE_GIVE = 0.003
-"""Change of the distance between opposite faces of a massive part, relative to it: they move together."""
+"""Change of the distance between opposite faces of a massive part, over it: they move together."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class SheetPairs:
     front, back : the places, pair by pair
     thickness : (n,) nominal distance in mm
     area : (n,) share of the skin in mm² that the pair stands for
-    give : (n,) how much the distance may change, in mm, where the part is no sheet; 0 on sheets
+    give : (n,) how much the distance may change, in mm
     solid_thickness : nominal thickness in mm of each solid, 0 where it is no sheet
     of_face : (faces,) nominal thickness in mm of the sheet whose skin the face is, 0 elsewhere
     """
@@ -45,7 +46,7 @@ class SheetPairs:
 
 
 def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: SpanGrid,
-               gauss: SpanGrid, area: Array) -> SheetPairs:
+               gauss: SpanGrid, area: Array, sizes: Array, change: float) -> SheetPairs:
     """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material.
 
     Parameters
@@ -54,16 +55,18 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
     solids : faces (k,) of each solid
     lattices : of all faces
     gauss : the Gauss places
+    sizes : (faces,) size in mm of the solid of every face
+    change : expected change of the thickness of a sheet, over it
     """
-    found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
+    found = [_pairs_of(solid, lattices, cells, gauss, area, _NORMAL_SCALE * sizes[solid[0]]) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []
     for solid, pairs in zip(solids, found, strict=True):
         thickness, share, keep = _dominant(pairs, area[np.isin(lattices.face_of_span, solid)].sum())
         is_sheet = share >= _LEAST_SHEET_SHARE
         thickness_of_solid.append(thickness if is_sheet else 0.0)
-        kept.append(np.column_stack([pairs[keep], np.zeros(keep.sum())]) if is_sheet
-                    else np.column_stack([pairs, _MASSIVE_GIVE * pairs[:, 6]]))
+        some, give = (pairs[keep], change) if is_sheet else (pairs, _MASSIVE_GIVE)
+        kept.append(np.column_stack([some, give * some[:, 6]]))
         if is_sheet:
             of_face[np.unique(pairs[keep][:, :2].astype(int))] = thickness
     table = np.concatenate([np.zeros((0, 9)), *kept])
@@ -75,8 +78,9 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
                       tuple(thickness_of_solid), of_face)
 
 
-def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array) -> Array:
-    """Rows face, opposite face, u, v, opposite u, v, distance, area of one solid."""
+def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array, scale: float) -> Array:
+    """Rows face, opposite face, u, v, opposite u, v, distance, area of one solid; ``scale`` in mm is what a unit of
+    difference between normals counts for."""
     spans = np.flatnonzero(np.isin(lattices.face_of_span, solid))
     cell_normals = normals(cells.nominal, cells.outward)[0]
     gauss_normals = normals(gauss.nominal, gauss.outward)[0]
@@ -88,8 +92,8 @@ def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid
         return np.zeros((0, 8))
     there, there_normal = cells.nominal.position[span, cell], cell_normals[span, cell]
     here, normal = gauss.nominal.position[own_span, own], gauss_normals[own_span, own]
-    tree = cKDTree(np.hstack([there, _NORMAL_SCALE * there_normal]), balanced_tree=False, compact_nodes=False)
-    near = tree.query(np.hstack([here, -_NORMAL_SCALE * normal]))[1]
+    tree = cKDTree(np.hstack([there, scale * there_normal]), balanced_tree=False, compact_nodes=False)
+    near = tree.query(np.hstack([here, -scale * normal]))[1]
     offset, cosine = there[near] - here, np.einsum("nx,nx->n", normal, there_normal[near])
     depth = -np.einsum("nx,nx->n", offset, there_normal[near]) / np.where(cosine < -0.1, cosine, -1.0)
     hit = -depth[:, None] * normal - offset

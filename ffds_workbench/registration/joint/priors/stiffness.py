@@ -34,6 +34,7 @@ class Stiffness:
     places : the Gauss places
     area : (spans, k) integration weights in mm² within the trims
     weight : (spans, k) the same with a little outside them
+    stretched : (spans, k) ``weight`` over the square of the solid's size
     slope : (spans, k, 2, 16) rows that give d_;i
     hessian : (spans, k, 3, 16) rows that give d_;ij
     curvature : (spans, k, 3) second fundamental form of the nominal surface, for the outward normal
@@ -50,6 +51,7 @@ class Stiffness:
     places: SpanGrid
     area: Array
     weight: Array
+    stretched: Array
     slope: Array
     hessian: Array
     curvature: Array
@@ -147,12 +149,13 @@ def _third_form(form: Array, metric: Array) -> Array:
                      b * (ie * b + jf * c) + c * (jf * b + ig * c)], axis=-1)
 
 
-def make_stiffness(lattices: Lattices, places: SpanGrid) -> Stiffness:
+def make_stiffness(lattices: Lattices, places: SpanGrid, body_size: Array) -> Stiffness:
     """Rows and weights at the Gauss places of the nominal faces.
 
     Parameters
     ----------
     lattices : of all faces
+    body_size : (spans,) size in mm of the solid that a span belongs to
     """
     tangents, seconds = places.nominal.tangents, places.nominal.seconds
     normal, area_element = normals(places.nominal, places.outward)
@@ -169,9 +172,9 @@ def make_stiffness(lattices: Lattices, places: SpanGrid) -> Stiffness:
     curvature = np.einsum("skpq,skq->skp", tensor, form)
     span_weights = 0.25 * np.outer(_GAUSS_WEIGHTS, _GAUSS_WEIGHTS).ravel()
     weight = span_weights * area_element * lattices.step.prod(axis=1)[:, None]
-    return Stiffness(places, np.where(places.inside, weight, 0.0),
-                     np.where(places.inside, 1.0, _OUTSIDE_WEIGHT) * weight, slope, hessian, curvature, normal,
-                     np.matmul(to_frame, tangents))
+    everywhere = np.where(places.inside, 1.0, _OUTSIDE_WEIGHT) * weight
+    return Stiffness(places, np.where(places.inside, weight, 0.0), everywhere, everywhere / body_size[:, None] ** 2,
+                     slope, hessian, curvature, normal, np.matmul(to_frame, tangents))
 
 
 def _frame(tangents: Array) -> Array:

@@ -20,8 +20,8 @@ from .lattices import Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
-_BOUNDARY_SPACING = 0.3
-_LARGEST_TRIM_DISTANCE = 3.0
+_BORDER_SPACING = 0.25
+"""Of places along the border of a face, over the sides of its cells: their distance from it is right to 2 % (unit)."""
 _FACE_SEPARATION = 1e6
 
 
@@ -137,21 +137,37 @@ def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
     return blocks.reshape(nu * nv, m * m, *rest)
 
 
-def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid) -> Array:
-    """Distance in mm of each cell from the border of its face, at most a few mm; negative outside: (spans, k).
+def cell_sides(lattices: Lattices, cells: SpanGrid) -> Array:
+    """Length in mm of the longer sides of the cells of every face, their mean: (faces,).
+
+    Parameters
+    ----------
+    lattices : of all faces
+    cells : places on all faces, span by span
+    """
+    sides = np.linalg.norm(cells.nominal.tangents, axis=3).mean(axis=1) * lattices.step / np.sqrt(len(cells.local))
+    count = np.bincount(lattices.face_of_span)
+    return np.asarray(np.bincount(lattices.face_of_span, sides.max(axis=1)) / count)
+
+
+def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid, side: Array,
+                      farthest: Array) -> Array:
+    """Distance in mm of each cell from the border of its face, at most the ``farthest`` that matters there, (faces,);
+    negative outside: (spans, k).
 
     Parameters
     ----------
     faces : of the part
     lattices : of all faces
     cells : places on all faces, span by span
+    side : (faces,) `cell_sides` in mm
     """
-    distance = np.full(cells.inside.shape, _LARGEST_TRIM_DISTANCE)
+    distance = np.repeat(farthest[lattices.face_of_span, None], cells.inside.shape[1], axis=1)
     for index, face in enumerate(faces):
-        border = boundary_points(face, _BOUNDARY_SPACING)
+        border = boundary_points(face, _BORDER_SPACING * side[index])
         if len(border):
-            spans = np.flatnonzero(lattices.face_of_span == index)
+            spans, most = np.flatnonzero(lattices.face_of_span == index), farthest[index]
             position = cells.nominal.position[spans].reshape(-1, 3)
-            near = cKDTree(border).query(position, distance_upper_bound=_LARGEST_TRIM_DISTANCE)[0]
-            distance[spans] = np.minimum(near, _LARGEST_TRIM_DISTANCE).reshape(len(spans), -1)
+            near = cKDTree(border).query(position, distance_upper_bound=most)[0]
+            distance[spans] = np.minimum(near, most).reshape(len(spans), -1)
     return np.where(cells.inside, distance, -distance)

@@ -34,13 +34,27 @@ class _Extent:
     area: Array
 
 
-def span_counts(faces: Sequence[FaceGeometry], solids: Sequence[Index], spans: float, turning: float,
+def solid_sizes(faces: Sequence[FaceGeometry], solids: Sequence[Index]) -> Array:
+    """Size in mm of the solid of every face, (faces,): the diagonal of the block whose surface has the same radius of
+    gyration, in all frames.
+
+    Parameters
+    ----------
+    solids : faces (k,) of each solid
+    """
+    result = np.ones(len(faces))
+    for solid in solids:
+        result[solid] = _size([_extent(faces[index]) for index in solid])
+    return result
+
+
+def span_counts(faces: Sequence[FaceGeometry], sizes: Array, spans: float, turning: float,
                 least: float, finer: Mapping[int, int] | None = None) -> list[tuple[int, int]]:
     """Numbers of spans in u and v of every face.
 
     Parameters
     ----------
-    solids : faces (k,) of each solid
+    sizes : (faces,) size in mm of the solid of every face
     spans : over the size of a solid
     turning : largest turn of the normal over a span in rad, where a face is as round as its solid is large
     least : size of a span in mm that the scan fills
@@ -48,11 +62,8 @@ def span_counts(faces: Sequence[FaceGeometry], solids: Sequence[Index], spans: f
     """
     finer = finer or {}
     extents = [_extent(face) for face in faces]
-    size = np.ones(len(faces))
-    for solid in solids:
-        size[solid] = _size([extents[index] for index in solid])
     counts = [_counts(face, extent, own, max(own / spans, least), turning)
-              for face, extent, own in zip(faces, extents, size, strict=True)]
+              for face, extent, own in zip(faces, extents, sizes, strict=True)]
     return [_divided(count, extent, finer.get(index, 1))
             for index, (count, extent) in enumerate(zip(counts, extents, strict=True))]
 
@@ -78,7 +89,7 @@ def _divided(counts: tuple[int, int], extent: _Extent, number: int) -> tuple[int
 
 
 def _size(extents: Sequence[_Extent]) -> float:
-    """Size of a solid in mm: the diagonal of the block whose surface has the same radius of gyration, in all frames."""
+    """Size in mm of the solid with these faces."""
     middle, area = (np.concatenate([getattr(extent, name) for extent in extents]) for name in ("middle", "area"))
     centre = np.average(middle, axis=0, weights=area)
     return float(np.sqrt(12 * np.average(((middle - centre) ** 2).sum(axis=1), weights=area)))

@@ -10,14 +10,15 @@ from ..problem import Problem
 from ..surfaces import FacePlaces
 
 TWO_SIDED = 1.96
-_UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 2.0
-"""The 95 % quantile where the shape rests on priors alone, and from how many mm beside the observed area. Bends gather
-in places, so that errors are distributed as Student's t with two degrees of freedom."""
-_NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 2.0
-"""Standard deviation, relative to the noise's, of the error that points of the neighbouring face cause at a border; and
-how far it reaches into the face, in mm."""
-_EDGE_MISFIT = 0.045
-"""Standard deviation in mm of the place of an edge, beyond what the covariance of its faces explains."""
+_UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 6.0
+"""The 95 % quantile where the shape rests on priors alone, and from how many spacings of points beside the observed
+area. Bends gather in places, so that errors are distributed as Student's t with two degrees of freedom."""
+_NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 3.0
+"""Standard deviation, over the noise's, of the error that points of the neighbouring face cause at a border; and how far
+it reaches into the face, in margins that points keep from it."""
+_EDGE_MISFIT = 0.3, 0.1
+"""Standard deviation of the place of an edge, beyond what the covariance of its faces explains, from the noise and from
+the spacing of the points, over them (calibrated: families of the accuracy benchmark)."""
 
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
@@ -40,8 +41,8 @@ def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Arra
         spans = np.arange(start, min(start + 256, len(normal)))
         at = np.einsum("ki,kj,sijxy->skxy", table, table, span_covariance(problem, covariance, spans), optimize=True)
         variance[spans] += np.einsum("skx,skxy,sky->sk", normal[spans], at, normal[spans])
-    leak = _NEIGHBOUR_LEAK * problem.lengths.noise * np.clip(1 - border / _LEAK_ZONE, 0, 1)
-    return _quantile(gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
+    leak = _NEIGHBOUR_LEAK * problem.lengths.noise * np.clip(1 - border / (_LEAK_ZONE * problem.margin[:, None]), 0, 1)
+    return _quantile(problem, gap) * np.sqrt(np.maximum(variance, 0) + misfit[:, None] + leak**2)
 
 
 def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: FacePlaces, direction: Array, gap: Array,
@@ -52,6 +53,7 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Face
     Satterthwaite's approximation.
     """
     bands = np.zeros(len(samples))
+    own = np.hypot(_EDGE_MISFIT[0] * problem.lengths.noise, _EDGE_MISFIT[1] * problem.lengths.spacing)
     for start in range(0, len(samples), 512):
         part = samples.take(np.arange(start, min(start + 512, len(samples))))
         blocks = span_covariance(problem, covariance, part.span)
@@ -62,13 +64,14 @@ def edge_bands(problem: Problem, covariance: Array, errors: Array, samples: Face
         along = direction[start : start + len(part)]
         project = np.eye(3) - along[:, :, None] * along[:, None, :]
         variance = np.linalg.eigvalsh(project @ at @ project)[:, 1:]
-        variance = np.maximum(variance, 0) + (_EDGE_MISFIT**2 + misfit[start : start + len(part), None])
+        variance = np.maximum(variance, 0) + (own**2 + misfit[start : start + len(part), None])
         total = variance.sum(axis=1)
         freedom = np.clip(total**2 / (variance**2).sum(axis=1), 1.0, 2.0)
         bands[start : start + len(part)] = np.sqrt(total / freedom * chdtri(freedom, 0.05))
-    return _quantile(gap) / TWO_SIDED * bands
+    return _quantile(problem, gap) / TWO_SIDED * bands
 
 
-def _quantile(gap: Array) -> Array:
+def _quantile(problem: Problem, gap: Array) -> Array:
     """Half width of a 95 % band in standard deviations."""
-    return TWO_SIDED + (_UNSEEN_QUANTILE - TWO_SIDED) * np.clip(gap / _UNSEEN_DISTANCE, 0, 1)
+    share = np.clip(gap / (_UNSEEN_DISTANCE * problem.lengths.spacing), 0, 1)
+    return TWO_SIDED + (_UNSEEN_QUANTILE - TWO_SIDED) * share

@@ -13,8 +13,9 @@ from ..data import CellHeights, patch_sums
 from ..problem import Problem
 from ..surfaces import by_face
 
-_POOLING_RADIUS = 15.0
-"""Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
+_POOLING_RADIUS = 0.115
+"""Over the size of their solid: spans this near to each other are judged together, as one alone holds too few points to
+tell (unit: a little more than a span)."""
 
 
 def misfit(problem: Problem, values: CellHeights) -> Array:
@@ -33,7 +34,7 @@ def misfit(problem: Problem, values: CellHeights) -> Array:
     seen = total > 0
     excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=(1, 2))
     place = _span_middles(problem)
-    near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS, workers=-1)
+    near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS * problem.body_size, workers=-1)
     row, column = np.repeat(np.arange(len(place)), [len(item) for item in near]), np.concatenate(near).astype(np.intp)
     around = [np.bincount(row, item[column], len(place))
               for item in (total.sum(axis=(1, 2)), pull.sum(axis=(1, 2)), excess)]

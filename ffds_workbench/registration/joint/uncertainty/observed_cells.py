@@ -13,11 +13,11 @@ from ..data import CellHeights
 from ..problem import Problem
 
 OBSERVED, BRIDGED, CARRIED = "observed", "bridged", "carried"
-_LEAST_NEARNESS = 1.0
 _NEAR_IN_SPACINGS = 3.0
 _SEEN_FACE_SHARE = 0.05
 _NEAR_EDGE = 2.0
-"""Observed cells this near (mm, or twice the trim margin) make an edge observed: none lie nearer than the margin."""
+"""Observed cells this many times as near as others have to be, or this many trim margins, make an edge observed: none
+lie nearer than the margin."""
 
 
 @dataclass(frozen=True)
@@ -54,14 +54,14 @@ class Coverage:
 
     def edge_near(self, margin: float) -> float:
         """How near to an edge observed cells make it observed."""
-        return max(_NEAR_EDGE, 2 * margin, self.near)
+        return _NEAR_EDGE * max(margin, self.near)
 
 
 def coverage(problem: Problem, values: CellHeights) -> Coverage:
     """Coverage of every face by the cells that carry weight."""
     shape = problem.cells.inside.shape
     observed = values.weight.reshape(shape) > 0
-    near = max(_LEAST_NEARNESS, _NEAR_IN_SPACINGS / np.sqrt(problem.statistics.density))
+    near = _NEAR_IN_SPACINGS * problem.lengths.spacing
     gap, share, trees = np.full(shape, np.inf), np.zeros(len(problem.part.faces)), []
     for face in range(len(problem.part.faces)):
         spans = np.flatnonzero(problem.lattices.face_of_span == face)
