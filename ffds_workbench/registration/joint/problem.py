@@ -163,9 +163,10 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
+    margin = trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise))
+    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
-                   pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths,
+                   pattern, constant_rows(pattern, stiffness, couplings), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 

@@ -206,7 +206,8 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
         edges, sides = problem.couplings.edges, problem.sides
         near_edges = find_near_edges(problem.scan, edges, sides, control_points, cache.near_edges)
         borders = find_borders(near_edges, edges, sides, control_points, problem.lengths.noise,
-                               np.maximum(state.values.scatter.loss, problem.lengths.border), cache.borders)
+                               np.maximum(state.values.scatter.loss, problem.lengths.border),
+                               state.values.count / np.maximum(problem.area.ravel(), 1e-12), cache.borders)
         cache = replace(cache, near_edges=near_edges, borders=borders)
         if stage.body:
             cache = replace(cache, body=body_rows(problem, control_points, jet, state.values, borders, cache.body))
