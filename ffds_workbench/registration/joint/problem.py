@@ -154,7 +154,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature)
     distance = distance_to_trims(part.faces, lattices, cells)
     lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
