@@ -3,8 +3,8 @@
 
 Scan points are expressed once as foot point and height over the nominal face. From then on every step works on the
 raster: the residuals of each cell's points are averaged with Tukey weights, and the control lattice takes the
-displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the wider
-the gate.
+displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the
+wider the gate.
 """
 from __future__ import annotations
 

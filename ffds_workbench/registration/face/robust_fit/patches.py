@@ -114,6 +114,7 @@ def trust_proven(raster: Raster, layers: Layers, trust: TrustedLayers, residual:
     raster, layers : of the face, and the k layers of the scan over it
     trust : in the main patches
     residual : (k,) heights of the layers over that surface in mm
+    settings : the last gate, and the curvature κ₀ that is expected
     """
     trusted = trust.layers
     if trusted.all():
