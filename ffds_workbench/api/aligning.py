@@ -18,7 +18,7 @@ from ..output import replacing
 from ..registration.motions import describe_difference
 from ..registration.request import ALIGNMENTS
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.unit_mismatch import unit_by_size
+from ..registration.rigid.scan_unit import unit_by_size
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
