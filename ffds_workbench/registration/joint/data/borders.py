@@ -91,8 +91,14 @@ class EdgeSides:
 
 
 def edge_sides(edges: SharedEdgePlaces, cells: SpanGrid, face_of_span: Index, holds: NDArray[np.bool_]) -> EdgeSides:
-    """Sides of the nominal edges, as the faces' loops run, and the cells beside them that hold points, of those that
-    do, (spans, k)."""
+    """Sides of the nominal edges, as the faces' loops run, and the cells beside them that hold points.
+
+    Parameters
+    ----------
+    cells : places on all faces, span by span
+    face_of_span : (spans,) number of the face
+    holds : (spans, k) whether a cell may hold points
+    """
     span, place = np.nonzero(holds)
     tree = cKDTree(by_face(cells.nominal.position[span, place], face_of_span[span]))
     beside = [(side.face, tree.query(by_face(side.nominal[0], side.face), workers=-1)[1])
