@@ -12,14 +12,11 @@ from scipy.sparse import bsr_matrix, csr_matrix
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
-from .constant_rows import ConstantRows, constant_rows
 from .data import EdgeSides, ScanStatistics, edge_sides, find_lengths, scan_statistics, trim_margin
-from .free_motions import FreeMotions, find_free_motions
-from .linear import Pattern
-from .linear.memory import refuse_too_large
 from .lengths import Lengths
-from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
-                     make_stiffness)
+from .linear import Pattern, refuse_too_large
+from .priors import (GAUSS_PLACES, ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows,
+                     contact_rows, find_free_motions, find_pairs, make_couplings, make_stiffness)
 from .settings import JointSettings
 from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, cell_sides, distance_to_trims, make_span_grid,
                        normals, solid_sizes, span_counts)
@@ -34,24 +31,8 @@ it, and a little for what a shape is off)."""
 _FARTHEST_IN_MARGINS = 4.0
 """Distances from the border are known up to this (theory: nothing asks for more)."""
 _CELLS_PER_SPAN = (3, 10)
-_SAME_NORMAL = 0.02
-"""The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
-thousand."""
 _WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
-_STRAIN_LASTS = 0.004
-"""Of the size of the least solid: by this far it moves before its strain is looked at anew (unit: a small share of a
-span, in which no face turns so far that the steps would go astray)."""
-_MATCHES_LAST = 0.08
-"""Over the usual side of a cell: after smaller steps, points keep their cells (unit: a small share of a cell)."""
-
-
-@dataclass(frozen=True)
-class ThicknessRows:
-    """The thickness of sheets along normals (pairs, 3): ``blocks`` (size, 3, 3) are its rows on the pattern."""
-
-    normal: Array
-    blocks: Array
 
 
 @dataclass(frozen=True)
@@ -98,14 +79,6 @@ class Problem:
     cell_side: float
     sample_normals: Array | None = None
 
-    def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
-        """Rows of the thickness along the sheets' current normals; those that are ``known`` if the normals hardly
-        differ."""
-        normal = self.couplings.sheet_normals(control_points)
-        if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
-            return known
-        return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
-
     def without_points_on(self, faces: Sequence[int]) -> Problem:
         """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
         return replace(self, margin=np.where(np.isin(self.lattices.face_of_span, faces), np.inf, self.margin))
@@ -114,16 +87,6 @@ class Problem:
     def size(self) -> float:
         """Diagonal of the box around the nominal cells, in mm."""
         return self.lengths.size
-
-    @property
-    def strain_lasts(self) -> float:
-        """How far the shape may move before its strain is looked at anew, in mm."""
-        return _STRAIN_LASTS * float(self.body_size.min())
-
-    @property
-    def matches_last(self) -> float:
-        """After a step smaller than this in mm, points keep their cells."""
-        return _MATCHES_LAST * self.cell_side
 
     @property
     def face_of_cell(self) -> Index:
@@ -149,7 +112,7 @@ class Problem:
         return list(zip(skin[starts].tolist(), starts.tolist(), ends.tolist(), strict=True))
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
-        """Weight of the strain of skins and of walls, which may stretch more, per area over the solid's size squared."""
+        """Weight of the strain of skins and of walls, which may stretch more, per area over the size squared."""
         settings = self.settings
         weight = trust.isometry / (settings.strain * settings.strain_length) ** 2
         return weight, min(_WALL_ISOMETRY * weight, 1 / (settings.strain_walls * settings.strain_length) ** 2)
@@ -172,28 +135,30 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     statistics = scan_statistics(scan)
     least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
     sizes = solid_sizes(part.faces, part.solids)
-    lattices = build_lattices(part.faces, span_counts(part.faces, sizes, settings.spans, settings.turning, least, finer))
+    counts = span_counts(part.faces, sizes, settings.spans, settings.turning, least, finer)
+    lattices = build_lattices(part.faces, counts)
     body_size = sizes[lattices.face_of_span]
     refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
     stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES), body_size)
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, sizes,
-                       settings.thickness_change)
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature,
+                       sizes, settings.thickness_change)
     lengths, apart = find_lengths(lattices, cells, sample, statistics)
     side = cell_sides(lattices, cells)
-    margin = np.maximum(_TRIM_MARGIN * side, lengths.noise)
-    distance = distance_to_trims(part.faces, lattices, cells, side, _FARTHEST_IN_MARGINS * margin)
+    most = np.maximum(_TRIM_MARGIN * side, lengths.noise)
+    distance = distance_to_trims(part.faces, lattices, cells, side, _FARTHEST_IN_MARGINS * most)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells, sizes), settings, lengths,
                                len(scan) / lengths.start**2)
     coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
+    margin = trim_margin(lattices, distance, most)
+    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
-                   pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, margin), lengths,
+                   pattern, constant_rows(pattern, stiffness, couplings), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart, body_size,
                    float(np.median(side[lattices.face_of_span])),
                    None if scan_normals is None else scan_normals[pick])

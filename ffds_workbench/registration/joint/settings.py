@@ -17,10 +17,10 @@ class Stage:
     Attributes
     ----------
     bending : multiplies the bending weight
-    gate : scan points farther than this from the model are left out, over the reach; in mm once it is one of `stages`
+    gate : scan points farther than this from the model are left out, over the reach; in mm of `JointSettings.stages`
     iterations : most Gauss-Newton steps
-    enough : the stage is over when no point moves farther in a step, over the gate or, of a soft stage, the noise; in mm
-        once it is one of `stages`
+    enough : the stage is over when no point moves farther in a step, over the gate or, of a soft stage, over the noise;
+        in mm of `JointSettings.stages`
     soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
     body : what the body tells of its faces counts as well, and the priors keep the trust that they have

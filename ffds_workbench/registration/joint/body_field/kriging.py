@@ -188,8 +188,8 @@ def _grid_neighbours(length: int, noise: int) -> list[tuple[int, int]]:
 
 
 def _likelihood(model: FieldModel, seen: Observations, between: Array, least: float) -> tuple[float, FieldModel]:
-    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance, the ``least`` one
-    in mm² or more."""
+    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance, at ``least`` so
+    many mm²."""
     factor = cholesky(between + np.diag(model.noise * seen.noise), lower=True, check_finite=False)
     white = solve_triangular(factor, seen.value, lower=True, check_finite=False)
     variance = max(float(white @ white) / len(white), least)

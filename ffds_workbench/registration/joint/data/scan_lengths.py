@@ -20,7 +20,7 @@ _LARGE = 0.05
 """Typical distance over the size of the part from which the scan may be a table's for the most part (unit)."""
 _FARTHEST = 3.0
 """Over the typical distance: what is matched for the first look (unit)."""
-_MOST, _REACH = 0.9, 2.5
+_MOST_POINTS, _REACH = 0.9, 2.5
 """Quantile of the matched heights, and how many times as far some of the part may have moved (unit)."""
 _REACH_IN_NOISES = 6.0
 """Least reach over the noise (theory: hardly any point of a normal distribution is farther)."""
@@ -60,7 +60,7 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
     found = correspond(sample, frames, _FARTHEST * typical)
     beside = _noise_beside(sample[found.point], found, lattices.face_of_span[found.cell // cells.inside.shape[1]])
     noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)
-    moved = quantile(np.abs(found.height), _MOST) if len(found.point) else typical
+    moved = quantile(np.abs(found.height), _MOST_POINTS) if len(found.point) else typical
     return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution,
                    max(_REACH * moved, _REACH_IN_NOISES * noise, _LEAST_REACH * size)), apart
 

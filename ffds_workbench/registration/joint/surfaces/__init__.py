@@ -11,5 +11,5 @@ from .seam_closing import close_seams
 from .span_counts import solid_sizes, span_counts
 
 __all__ = ["FaceLattice", "FacePlaces", "Jet", "JointPart", "Lattices", "SharedEdge", "SpanGrid", "build_lattices",
-           "by_face", "cell_sides", "close_seams", "concatenate", "cubic", "distance_to_trims", "make_span_grid", "normals",
-           "places_on_faces", "solid_sizes", "span_counts"]
+           "by_face", "cell_sides", "close_seams", "concatenate", "cubic", "distance_to_trims", "make_span_grid",
+           "normals", "places_on_faces", "solid_sizes", "span_counts"]
