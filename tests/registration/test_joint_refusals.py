@@ -78,7 +78,7 @@ def test_points_that_lie_elsewhere(solved):
 
 def test_a_displacement_larger_than_the_part(solved):
     problem, state = solved
-    with pytest.raises(RefusedError, match="80 mm, is larger than the part .50 mm.: align"):
+    with pytest.raises(RefusedError, match="80 mm, is larger than the part .49 mm.: align"):
         refuse_unsound(problem, replace(state, control_points=state.control_points + [80.0, 0.0, 0.0]))
 
 

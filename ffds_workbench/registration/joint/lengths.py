@@ -28,7 +28,7 @@ class Lengths:
 
     Attributes
     ----------
-    size : diagonal of the box around the part
+    size : twice the largest distance of the part from its middle
     spacing : between neighbouring points of the scan
     noise : standard deviation of the scan's points, and their ``resolution``
     reach : how far the scan may lie from the nominal part

@@ -85,7 +85,7 @@ class Problem:
 
     @property
     def size(self) -> float:
-        """Diagonal of the box around the nominal cells, in mm."""
+        """Twice the largest distance of the nominal cells from their middle, in mm."""
         return self.lengths.size
 
     @property

@@ -26,14 +26,18 @@ _POINTS_LAST = 0.6
 _BORDERS_LAST = 0.1
 """Borders are kept until the edges have moved by this many spacings of points."""
 _SHARP_COSINE = 0.7
+_ASIDE = float(np.sqrt(2.0) - 1) / 2
+"""Of the step between samples: so far along the edge the cell beside a sample is looked for. No ratio of whole numbers:
+samples and cells lie on grids, and rounding must not choose between two cells that are as near."""
 _LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
 """The edge lies beyond the outermost point by the spacing of one point, as for randomly placed points. Noise carries
 points over the edge: where more than one lies within this part of the noise, the second or third outermost is used."""
 _DENSITY_BAND = (1.5, 6.0)
 """Distance inside the outermost points, in spacings, between which the density is counted."""
 _LEAST_BAND_POINTS = 12
-_SEEN_BEYOND_SHARE = 0.15
-_LEAST_UNCERTAINTY = 0.15
+_SEEN_BEYOND_SHARE = 0.1511
+"""No ratio of two small numbers: counts are compared, and a tie would hang on rounding."""
+_LEAST_UNCERTAINTY = 0.2
 """Uncertainty of a visible border in spacings of points: mixed pixels, edge radius."""
 _USUAL_LOSS = 1.0
 """Sensors lose points at edges and never see any beyond them: an end farther inside than this, in spacings, gets less
@@ -101,7 +105,8 @@ def edge_sides(edges: SharedEdgePlaces, cells: SpanGrid, face_of_span: Index, ho
     """
     span, place = np.nonzero(holds)
     tree = cKDTree(by_face(cells.nominal.position[span, place], face_of_span[span]))
-    beside = [(side.face, tree.query(by_face(side.nominal[0], side.face), workers=-1)[1])
+    aside = _ASIDE * edges.length[:, None] * edges.direction
+    beside = [(side.face, tree.query(by_face(side.nominal[0] + aside, side.face), workers=-1)[1])
               for side in (edges.first, edges.second)]
     cell = np.stack([np.where(face_of_span[span[near]] == face, span[near] * holds.shape[1] + place[near], -1)
                      for face, near in beside])

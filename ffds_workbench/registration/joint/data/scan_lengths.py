@@ -32,13 +32,13 @@ _PLANES_FAIL = 2.0
 
 def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics: ScanStatistics
                  ) -> tuple[Lengths, Array]:
-    """The lengths, from points (n, 3) of the scan, and how far these lie from the nominal part, infinite beyond its
-    size: (n,).
+    """The lengths, and how far points of the scan lie from the nominal part, infinite beyond its size: (n,).
 
     Parameters
     ----------
     lattices : of all faces
     cells : of the nominal faces
+    sample : (n, 3) points of the scan in mm
     statistics : of the whole scan
 
     Raises
@@ -46,7 +46,7 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
     RefusedError : the scan is farther from the part than the part is large
     """
     position = cells.nominal.position[cells.inside]
-    size = float(np.linalg.norm(np.ptp(position, axis=0)))
+    size = 2 * float(np.linalg.norm(position - position.mean(axis=0), axis=1).max())
     apart = np.asarray(cKDTree(position).query(sample, distance_upper_bound=size, workers=-1)[0])
     typical = float(np.sort(apart)[int(_TYPICAL * (len(apart) - 1))])
     if not np.isfinite(typical):
