@@ -1118,8 +1118,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>: {0}</translation>
     </message>
     <message>
-      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them.</source>
-      <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten.</translation>
+      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them, or take as nominal model a STEP file that FreeCAD has exported of it.</source>
+      <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten, oder nehmen Sie als Sollteil eine STEP-Datei, die FreeCAD davon exportiert hat.</translation>
     </message>
     <message>
       <source>A STEP file would {0}: write .brep or .FCStd, which keep them.</source>
@@ -1392,6 +1392,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The document could not be written: {0}.</source>
       <translation>Das Dokument ließ sich nicht schreiben: {0}.</translation>
+    </message>
+    <message>
+      <source>The faces of the model cannot be meshed, as where they have no bounds: repair the model.</source>
+      <translation>Die Flächen des Modells lassen sich nicht vernetzen, etwa weil sie keine Grenzen haben: Reparieren Sie das Modell.</translation>
     </message>
     <message>
       <source>The isometry '{0}' is unknown: use one of {1}.</source>
