@@ -24,6 +24,9 @@ SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for pat
 
 LONGEST, ROOMIEST = 300, 15
 """Lines of a module, and modules of a folder."""
+ARROWS = {"registration/joint": 75, "registration/rigid": 44}
+"""How many arrows there may be between the rooms of a package, its modules and folders: so few that one can keep them
+in mind."""
 WHY_LONG = "# Long because "
 """A comment line that begins like this allows a module to be longer."""
 
@@ -83,6 +86,16 @@ def test_no_files_import_each_other_in_a_circle():
         TopologicalSorter(arrows).prepare()
     except CycleError as circle:
         raise AssertionError(" → ".join(circle.args[1])) from None
+
+
+@pytest.mark.parametrize("package", ARROWS)
+def test_few_arrows_lead_from_room_to_room(package):
+    prefix = _module(PACKAGE / package / "__init__.py") + "."
+    found = {(_module(path).removeprefix(prefix).split(".")[0], name.removeprefix(prefix).split(".")[0])
+             for path in (PACKAGE / package).rglob("*.py") if _module(path) + "." != prefix
+             for name in map(_file_of({_module(module): module for module in MODULES}), _imports(path))
+             if name and name.startswith(prefix)}
+    assert sum(start != end for start, end in found) <= ARROWS[package]
 
 
 def _module(path: Path) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ..registration.face import RobustSettings
+from ..registration.face import PROVEN, RobustSettings
 from ..registration.joint import JointSettings, SensorProfile
 from ..registration.request import RegistrationRequest
 
@@ -13,8 +13,10 @@ from ..registration.request import RegistrationRequest
 def robust_settings(request: RegistrationRequest) -> RobustSettings:
     """Settings of a face by itself."""
     plain = RobustSettings()
-    final = tuple((factor, _gate(gate, plain.final[-1][1], request.gate)) for factor, gate in plain.final)
-    return replace(plain, length=plain.length / math.sqrt(request.stiffness), final=final)
+    last = plain.schedule[-1].gate
+    schedule = tuple(replace(stage, gate=_gate(stage.gate, last, request.gate)) if stage.trusts == PROVEN else stage
+                     for stage in plain.schedule)
+    return replace(plain, length=plain.length / math.sqrt(request.stiffness), schedule=schedule)
 
 
 def joint_settings(request: RegistrationRequest) -> JointSettings:

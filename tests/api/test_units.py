@@ -11,7 +11,7 @@ from ffds_workbench import RESOURCES, api
 from ffds_workbench.brep.model_files import model_file, step_colours
 from ffds_workbench.brep.simulated_scan import surface_samples
 from ffds_workbench.errors import FfdsError, InputError
-from ffds_workbench.registration.rigid.unit_mismatch import FACTORS, unit_mismatch
+from ffds_workbench.registration.rigid.scan_unit import FACTORS, unit_mismatch
 
 BRACKET = RESOURCES / "examples" / "bracket.step"
 

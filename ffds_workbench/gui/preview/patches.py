@@ -30,7 +30,7 @@ from .whole import WholePreview
 
 COARSE = 3000
 """Scan points per face that are looked at while a control is being moved."""
-_COARSE_SAMPLE, _COARSE_STIFF, _COARSE_SOFT = 4000, ((1e4, 5.0), (1e3, 2.0)), ((30.0, 1.2),)
+_COARSE_SAMPLE, _COARSE_STAGES = 4000, (0, 2, 4, -1)
 
 
 @dataclass(frozen=True)
@@ -185,7 +185,7 @@ def _neighbour(face: FaceOnScan, displacement: Displacement) -> Patch:
 
 
 def _coarse(settings: RobustSettings) -> RobustSettings:
-    return replace(settings, sample=_COARSE_SAMPLE, stiff=_COARSE_STIFF, soft=_COARSE_SOFT, final=settings.final[-1:])
+    return replace(settings, sample=_COARSE_SAMPLE, schedule=tuple(settings.schedule[k] for k in _COARSE_STAGES))
 
 
 def _size(displacement: SplineSurface) -> tuple[int, int]:

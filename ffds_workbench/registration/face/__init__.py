@@ -14,9 +14,9 @@ from .ffds import equidistant_grid, register_ffds, solve_lattice
 from .neighbours import nearest_neighbours
 from .observed_faces import observed_faces
 from .robust import register_robust
-from .robust_fit import RobustSettings
+from .robust_fit import LAYERS, MAIN_PATCHES, PROVEN, RobustSettings, RobustStage
 from .scan_coverage import covered_share
 
-__all__ = ["ControlLattice", "FaceRegistration", "RobustSettings", "covered_share", "displacement_lattice",
-           "equidistant_grid", "far_side", "nearest_neighbours", "observed_faces", "register_ffd", "register_ffds",
-           "register_robust", "solve_lattice"]
+__all__ = ["LAYERS", "MAIN_PATCHES", "PROVEN", "ControlLattice", "FaceRegistration", "RobustSettings", "RobustStage",
+           "covered_share", "displacement_lattice", "equidistant_grid", "far_side", "nearest_neighbours",
+           "observed_faces", "register_ffd", "register_ffds", "register_robust", "solve_lattice"]

@@ -15,12 +15,14 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
+from ..footpoints import SurfaceCoordinates
 from ..scan_normals import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .control_lattice import displacement_lattice
 from .face_result import FaceRegistration
-from .robust_fit import (FacePoints, RasterFit, RobustSettings, automatic_lattice, coarse_lattice, dense_layers,
-                         face_points, main_patches, patches, proven, rigid_start)
+from .robust_fit import (MAIN_PATCHES, PROVEN, FacePoints, Layers, RasterFit, RobustSettings, RobustStage,
+                         TrustedLayers, automatic_lattice, coarse_lattice, dense_layers, face_points, rigid_start,
+                         trust_all, trust_main_patches, trust_proven)
 from .scan_coverage import covered_share
 
 _LEAST_POINTS, _LEAST_FITTED = 30, 20
@@ -47,13 +49,46 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         Too little of the scan lies on the face, or the lattice is too fine for it.
     """
     settings = settings or RobustSettings()
+    raster, settings = _frame(face, lattice, settings, raster)
+    points, layers = _points_and_layers(face, scan, raster, settings)             # foot points (u, v) and heights h
+    size = lattice or coarse_lattice(raster, layers, settings.stiffness)
+    fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
+    _check_lattice(face, fit, points, lattice is None)
+    state, noise, gate = fit.moved(rigid_start(raster, layers)), layers.noise, settings.reach
+    trust = trust_all(layers)
+    for stage in settings.schedule:                                               # trust is earned in order:
+        begins = stage.trusts != trust.name
+        if begins and stage.trusts == MAIN_PATCHES:                               # in what hangs together,
+            trust = trust_main_patches(raster, layers, *fit.look(state, layers, gate))
+        elif begins:                                                              # then in what lies on its surface
+            residual, weights = fit.look(state, layers, gate)
+            trust = trust_proven(raster, layers, trust, residual, settings)
+            fit = _fit_of_face(face, layers, trust, weights, lattice, fit)
+        # minimised: Σ n/σ² (h − n·d)² + λ ∫ d_uu² + 2 d_uv² + d_vv², λ = stage.bending / (κ₀ l)²
+        state = fit.step(state, _data(stage, points, layers, trust), noise, stage.bending, stage.gate)
+        gate, noise = stage.gate, state.noise if trust.name == PROVEN else layers.noise
+        if begins and trust.name == PROVEN:
+            fit.allow_even_bending(state)
+    _check_found(face, state.points)
+    return FaceRegistration(face.name, fit.field(state), state.points, covered_share(raster, state.weights),
+                            state.noise)
+
+
+def _frame(face: FaceGeometry, lattice: tuple[int, int] | None, settings: RobustSettings,
+           raster: Raster | None) -> tuple[Raster, RobustSettings]:
+    """A raster with enough cells for the lattice, and the settings for a face of that size."""
     cells = max(_RASTER_CELLS, _CELLS_PER_CONTROL_POINT * int(np.prod(lattice or 0)))
     if raster is None or cells > _RASTER_CELLS:
         raster = make_raster(face, cells)
     # What lies farther than the face is long cannot be told from its surroundings.
-    settings = replace(settings, reach=min(settings.reach, float(max(raster.size * np.array(raster.shape)))))
-    margin = min(settings.margin, 0.5 * float(raster.depth.max()))
-    points = face_points(raster, scan, settings.reach, margin, settings.sample)
+    reach = min(settings.reach, float(max(raster.size * np.array(raster.shape))))
+    return raster, replace(settings, reach=reach, margin=min(settings.margin, 0.5 * float(raster.depth.max())))
+
+
+def _points_and_layers(face: FaceGeometry, scan: Array, raster: Raster, settings: RobustSettings,
+                       ) -> tuple[FacePoints, Layers]:
+    """The scan over the face and the layers it forms, without the walls beside the face where these are many."""
+    points = face_points(raster, scan, settings.reach, settings.margin, settings.sample)
     _check_points(face, points, settings)
     layers = dense_layers(raster, points.sample)
     if np.mean(~layers.thin) > _MANY_WALLS and points.kept is not None and points.count <= _MOST_NORMALS:
@@ -61,38 +96,28 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
         points = points.only(faces_alike(raster, inner, scan_normals(scan[inner.index])))
         _check_points(face, points, settings)
         layers = dense_layers(raster, points.sample)
-    layers = replace(layers, density=layers.density * max(1.0, points.count / settings.sample))
-    size = lattice or coarse_lattice(raster, layers, settings.stiffness)
-    fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
-    _check_lattice(face, fit, points, lattice is None)
-    state = fit.moved(rigid_start(raster, layers))
-    for stiffness, gate in settings.stiff:
-        state = fit.step(state, layers, layers.noise, stiffness, gate)
-    residual, weights = fit.look(state, layers, gate)
-    label = patches(raster, layers, residual)
-    trusted = main_patches(label, weights)
-    for stiffness, gate in settings.soft:
-        state = fit.step(state, layers.part(trusted), layers.noise, stiffness, gate)
-    residual, weights = fit.look(state, layers, gate)
-    gate = settings.final[-1][1] + layers.noise
-    believed = proven(raster, layers, label, trusted, residual, gate, settings.curvature)
-    ignored = layers.part(~believed).cells() & ~layers.part(believed).cells()
-    weights = weights * believed
+    return points, replace(layers, density=layers.density * max(1.0, points.count / settings.sample))
+
+
+def _fit_of_face(face: FaceGeometry, layers: Layers, trust: TrustedLayers, weights: Array,
+                 lattice: tuple[int, int] | None, fit: RasterFit) -> RasterFit:
+    """The fit with the lattice wanted, or else the one that the trusted layers determine by their ``weights`` (k,);
+    without the cells that show nothing but other layers."""
+    weights = weights * trust.layers
     _check_found(face, int(layers.count[weights > 0].sum()))
-    if lattice is None:
-        size = automatic_lattice(face.surface, raster, layers, weights, settings.stiffness)
+    size = lattice or automatic_lattice(face.surface, fit.raster, layers, weights, fit.settings.stiffness)
     if size != fit.size:
-        fit = RasterFit(face, raster, displacement_lattice(face.surface, size), settings)
-    fit.ignored = ignored
-    noise = layers.noise
-    for k, (stiffness, gate) in enumerate(settings.final):
-        state = fit.step(state, points if k == len(settings.final) - 1 else points.sample, noise, stiffness, gate)
-        noise = state.noise
-        if k == 0:
-            fit.allow_even_bending(state)
-    _check_found(face, state.points)
-    coverage = covered_share(raster, state.weights)
-    return FaceRegistration(face.name, fit.field(state), state.points, coverage, state.noise)
+        fit = RasterFit(face, fit.raster, displacement_lattice(face.surface, size), fit.settings)
+    fit.ignored = layers.part(~trust.layers).cells() & ~layers.part(trust.layers).cells()
+    return fit
+
+
+def _data(stage: RobustStage, points: FacePoints, layers: Layers, trust: TrustedLayers,
+          ) -> FacePoints | SurfaceCoordinates | Layers:
+    """What a stage is fitted to."""
+    if stage.trusts != PROVEN:
+        return layers.part(trust.layers)
+    return points if stage.every_point else points.sample
 
 
 def _check_points(face: FaceGeometry, points: FacePoints, settings: RobustSettings) -> None:

@@ -16,7 +16,7 @@ from .model import Target
 from .polish import polish
 from .quick import align_quickly
 from .search import LOCAL_SEARCH, THOROUGH_SEARCH, SearchStage, propose, starts_around, starts_of
-from .unit_guess import plausible_scales
+from .scan_unit import plausible_scales
 from .verdict import alignment_of, failed_alignment
 
 _SURE_CERTAINTY = 0.95

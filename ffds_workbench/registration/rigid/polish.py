@@ -16,9 +16,8 @@ from ..robust_weights import robust_sigma, tukey
 from ..scan_sketch import Sketch, thin
 from .deformation import STIFF_DEFORMATION_ROUNDS, DisplacementField, match_deformed, pose_of_deformed_part
 from .evidence import hides_sides
-from .model import Target, kept_with_target
+from .model import Target, kept_with_target, nearest_field
 from .refine import ScanEnds, find_scan_ends, gauss_newton, points_near_rims, refine
-from .search import nearest_field
 
 _WIDE_GATE, _DEFORMED_HEIGHT = 0.12, 0.002
 """As shares of the part's size: the gate within which points are matched with faces, and the height that a fifth of the

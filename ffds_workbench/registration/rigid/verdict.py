@@ -16,7 +16,7 @@ from .hypothesis import SAME_SHIFT, SAME_TURN, SCORE_MARGIN, Hypothesis
 from .model import Target
 from .polish import polish
 from .symmetry import Symmetry, symmetry_of
-from .unit_guess import unit_name
+from .scan_unit import unit_name
 
 _FITNESS_POINTS = 1_000
 """Number of points that the fitness is computed on."""

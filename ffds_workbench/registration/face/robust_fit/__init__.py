@@ -7,10 +7,11 @@
 """
 from .face_points import FacePoints, face_points
 from .lattice_size import automatic_lattice, coarse_lattice
-from .layers import dense_layers, rigid_start
-from .patches import main_patches, patches, proven
+from .layers import Layers, dense_layers, rigid_start
+from .patches import TrustedLayers, trust_all, trust_main_patches, trust_proven
 from .raster_fit import RasterFit
-from .robust_settings import RobustSettings
+from .robust_settings import LAYERS, MAIN_PATCHES, PROVEN, RobustSettings, RobustStage
 
-__all__ = ["FacePoints", "RasterFit", "RobustSettings", "automatic_lattice", "coarse_lattice", "dense_layers",
-           "face_points", "main_patches", "patches", "proven", "rigid_start"]
+__all__ = ["LAYERS", "MAIN_PATCHES", "PROVEN", "FacePoints", "Layers", "RasterFit", "RobustSettings", "RobustStage",
+           "TrustedLayers", "automatic_lattice", "coarse_lattice", "dense_layers", "face_points", "rigid_start",
+           "trust_all", "trust_main_patches", "trust_proven"]

@@ -76,7 +76,7 @@ class Layers:
         return SurfaceCoordinates(np.arange(len(self.x)), self.x, self.y, self.height, self.shape)
 
     def part(self, kept: NDArray[np.bool_]) -> Layers:
-        """The layers of a mask."""
+        """The layers that are ``kept``, (k,)."""
         block = np.repeat(np.arange(len(self.first)), np.diff(np.append(self.first, len(kept))))[kept]
         return Layers(self.order, self.begin[kept], self.end[kept], np.flatnonzero(np.diff(block, prepend=-1)),
                       self.x[kept], self.y[kept], self.height[kept], self.count[kept], self.thin[kept], self.noise,

@@ -6,6 +6,8 @@ visible face by a continuous surface, and it lies off where that surface leads.
 """
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
@@ -15,6 +17,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Array
 from ...uv_raster import Raster
 from .layers import Layers
+from .robust_settings import LAYERS, MAIN_PATCHES, PROVEN, RobustSettings
 
 Index = NDArray[np.intp]
 
@@ -27,7 +30,42 @@ join these."""
 _MOST_LAYERS = 4
 
 
-def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
+@dataclass(frozen=True)
+class TrustedLayers:
+    """Which layers of the scan are trusted to be the face.
+
+    Attributes
+    ----------
+    name : `LAYERS`, `MAIN_PATCHES` or `PROVEN`
+    layers : (k,) whether a layer is trusted
+    patch : (k,) number of the patch that it belongs to
+    """
+
+    name: str
+    layers: NDArray[np.bool_]
+    patch: Index
+
+
+def trust_all(layers: Layers) -> TrustedLayers:
+    """Trust in all ``layers``."""
+    count = len(layers.x)
+    return TrustedLayers(LAYERS, np.ones(count, dtype=bool), np.zeros(count, dtype=np.intp))
+
+
+def trust_main_patches(raster: Raster, layers: Layers, residual: Array, weights: Array) -> TrustedLayers:
+    """Trust in the layers of patches that carry at least a tenth of the weight of the heaviest one.
+
+    Parameters
+    ----------
+    raster, layers : of the face, and the k layers of the scan over it
+    residual, weights : (k,) heights over a stiff surface through most of them in mm, and weights
+    """
+    patch = _patches(raster, layers, residual)
+    total = np.bincount(patch, weights)
+    return TrustedLayers(MAIN_PATCHES, (total >= _MAIN_PATCH_SHARE * total.max())[patch], patch)
+
+
+def _patches(raster: Raster, layers: Layers, residual: Array) -> Index:
     """Number of the patch of each layer, (k,): layers of neighbouring blocks are joined where no step lies between.
 
     Parameters
@@ -65,31 +103,27 @@ def patches(raster: Raster, layers: Layers, residual: Array) -> Index:
     return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
 
 
-def main_patches(label: Index, weights: Array) -> NDArray[np.bool_]:
-    """Which layers lie in a patch that carries at least a tenth of the weight of the heaviest one, (k,); ``label`` (k,)
-    is the number of their patch, ``weights`` (k,) are theirs."""
-    total = np.bincount(label, weights)
-    return np.asarray((total >= _MAIN_PATCH_SHARE * total.max())[label])
+def trust_proven(raster: Raster, layers: Layers, trust: TrustedLayers, residual: Array,
+                 settings: RobustSettings) -> TrustedLayers:
+    """Trust in the layers trusted so far, and in patches that lie on the surface fitted to those.
 
-
-def proven(raster: Raster, layers: Layers, label: Index, trusted: NDArray[np.bool_], residual: Array, gate: float,
-           curvature: float) -> NDArray[np.bool_]:
-    """The trusted layers, and those of patches that lie on the surface fitted to the trusted ones.
+    A patch may lie off by the last gate, and by κ₀ s² more over a gap of s mm from what is trusted.
 
     Parameters
     ----------
     raster, layers : of the face, and the k layers of the scan over it
-    label, trusted : (k,) the patch of each layer, and which are trusted already
+    trust : in the main patches
     residual : (k,) heights of the layers over that surface in mm
-    gate : how far off in mm a patch may lie on average, in direct reach of the trusted layers
-    curvature : in 1/mm; over a gap of s mm, curvature · s² is added
+    settings : the last gate, and the curvature κ₀ that is expected
     """
+    trusted = trust.layers
     if trusted.all():
-        return trusted
+        return replace(trust, name=PROVEN)
     places = np.stack([layers.x * raster.size[0], layers.y * raster.size[1]], axis=1)
     gap = cKDTree(places[trusted]).query(places)[0]
-    count = np.bincount(label)
+    count = np.bincount(trust.patch)
     nearest = np.full(len(count), np.inf)
-    np.minimum.at(nearest, label, gap)
-    off = np.bincount(label, np.minimum(np.abs(residual), 1e6)) / count
-    return np.asarray((off <= gate + curvature * nearest**2)[label] | trusted)
+    np.minimum.at(nearest, trust.patch, gap)
+    off = np.bincount(trust.patch, np.minimum(np.abs(residual), 1e6)) / count
+    near = off <= settings.schedule[-1].gate + layers.noise + settings.curvature * nearest**2
+    return TrustedLayers(PROVEN, near[trust.patch] | trusted, trust.patch)

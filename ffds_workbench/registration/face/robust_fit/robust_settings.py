@@ -4,6 +4,33 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+LAYERS, MAIN_PATCHES, PROVEN = "layers", "main patches", "proven"
+"""What a stage trusts to be the face: all that the scan shows, the heaviest of the patches that hang together, or these
+with whatever lies on the surface that they lead to."""
+
+
+@dataclass(frozen=True)
+class RobustStage:
+    """One step of the fit.
+
+    Attributes
+    ----------
+    bending : multiplies the bending weight
+    gate : distance in mm at which a point or a layer loses its weight
+    trusts : `LAYERS`, `MAIN_PATCHES` or `PROVEN`; from the last one on the points count, and no more the layers
+    every_point : of the scan, instead of a sample
+    """
+
+    bending: float
+    gate: float
+    trusts: str
+    every_point: bool = False
+
+
+SCHEDULE = (RobustStage(1e4, 5.0, LAYERS), RobustStage(1e4, 2.6, LAYERS), RobustStage(1e3, 2.0, LAYERS),
+            RobustStage(1e2, 1.5, MAIN_PATCHES), RobustStage(30, 1.2, MAIN_PATCHES), RobustStage(10, 1.0, MAIN_PATCHES),
+            RobustStage(3, 0.8, PROVEN), RobustStage(1, 0.6, PROVEN), RobustStage(1, 0.6, PROVEN, every_point=True))
+
 
 @dataclass(frozen=True)
 class RobustSettings:
@@ -16,9 +43,7 @@ class RobustSettings:
     curvature, length : expected bending of the displacement (1/mm) and the length over which it varies (mm); their
         product squared is the variance that weighs the bending energy
     gauge : 1/mm⁴, weight of the tangential displacement, which the scan does not see
-    stiff : bending multiplier and gate in mm of the first steps, on all layers of the scan
-    soft : the same for the next ones, on the layers that hang together
-    final : the same for the last ones, on points instead of layers
+    schedule : the steps
     sample : number of scan points that all steps but the last look at
     """
 
@@ -27,9 +52,7 @@ class RobustSettings:
     curvature: float = 0.002
     length: float = 10.0
     gauge: float = 1e-2
-    stiff: tuple[tuple[float, float], ...] = ((1e4, 5.0), (1e4, 2.6), (1e3, 2.0))
-    soft: tuple[tuple[float, float], ...] = ((1e2, 1.5), (30, 1.2), (10, 1.0))
-    final: tuple[tuple[float, float], ...] = ((3, 0.8), (1, 0.6), (1, 0.6))
+    schedule: tuple[RobustStage, ...] = SCHEDULE
     sample: int = 12000
 
     @property

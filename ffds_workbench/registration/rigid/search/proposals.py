@@ -10,8 +10,8 @@ import numpy as np
 from ...arrays import Array
 from ...scan_sketch import Sketch
 from ..evidence import hides_sides
-from ..model import Target
-from .candidates import Candidates, Probe, distinct, improve, nearest_field, scores
+from ..model import Target, nearest_field
+from .candidates import Candidates, Probe, distinct, improve, scores
 
 _MAJOR_PIECE = 0.1
 """A connected piece with at least this share of the points has a sign of its own in the search."""

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether a model and a scan that should lie on it are in different units: by which factor, told by size and place.
+"""The unit of a scan.
+
+Which ones it may be in, by its size against the part's (`plausible_scales`, before it is aligned); and whether it is in
+another than the model that it should lie on, by its size and its place (`unit_mismatch`).
 
 A partial view and one with a table beside the part differ from the part in size as a wrong unit does. So the places
 count first: where the scan lies on the part as it is, nothing is said, unless another unit makes it fill the part.
@@ -13,8 +16,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays import Array
-from .unit_guess import SCALES
 
+SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
+"""Factors to mm that scans come in beside 1; each may also be off the other way round."""
 FACTORS = (*SCALES.values(), *(1.0 / factor for factor in SCALES.values()))
 """What a scan may have to be multiplied by."""
 Surface = Callable[[], tuple[Array, Array]]
@@ -38,6 +42,10 @@ _REACH, _MARGIN = 0.03, 0.05
 part's. Physical: sheet metal springs back by a few hundredths of its size."""
 _LOOKED_AT, _NEAR_POINTS = 2_000, 50
 """Points of a scan that are looked at, and how many near the part tell anything."""
+_TRUSTED_RATIO = (0.3, 4.0)
+"""Ratio of scan size to part size at which the unit given is tried first: partial views below, clutter above."""
+_POSSIBLE_RATIO = (0.12, 10.0)
+_TRIED_SCALES = 3
 
 
 @dataclass(frozen=True)
@@ -91,6 +99,30 @@ def box_of(points: Array) -> tuple[Array, Array, float]:
     some = points[:: max(1, len(points) // 20_000)]
     low, high = np.quantile(some, [0.02, 0.98], axis=0)
     return low, high, float(np.linalg.norm(high - low))
+
+
+def plausible_scales(scan: Array, size: float) -> list[float]:
+    """Factors to try on the scan's coordinates, the likeliest first.
+
+    Parameters
+    ----------
+    scan : (n, 3)
+    size : diagonal of the part in mm
+    """
+    ratio = max(box_of(scan)[2], 1e-300) / size
+    possible = [f for f in (1.0, *FACTORS) if _POSSIBLE_RATIO[0] < ratio * f < _POSSIBLE_RATIO[1]]
+    trusted = _TRUSTED_RATIO[0] < ratio < _TRUSTED_RATIO[1]
+    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:_TRIED_SCALES]
+
+
+def unit_name(scale: float) -> str:
+    """What a factor to mm is called: "m" for 1000, "mm" for 1; "mm / 25.4" for the other way round."""
+    for name, factor in SCALES.items():
+        if np.isclose(scale, factor):
+            return name
+        if np.isclose(scale * factor, 1.0):
+            return f"mm / {factor:g}"
+    return "mm" if np.isclose(scale, 1.0) else f"{scale:g} mm"
 
 
 def unit_mismatch(scan: Array, low: Array, high: Array, surface: Surface) -> float | None:
