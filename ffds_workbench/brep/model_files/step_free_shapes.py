@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import Part
 
 _ENTITY = re.compile(r"^#(\d+) = ([^;]*);\n", re.MULTILINE)
-_REPRESENTATION = re.compile(r"\w*SHAPE_REPRESENTATION\('',\(([#\d,\s]+)\),#\d+\)")
+_REPRESENTATION = re.compile(r"\w*SHAPE_REPRESENTATION\('',\s*\(([#\d,\s]+)\),\s*#\d+\)")
 _REFERENCE = re.compile(r"#(\d+)")
 _SOLIDS = ("MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP")
 _SHEET, _CURVES, _POINTS = "SHELL_BASED_SURFACE_MODEL", "GEOMETRIC_CURVE_SET", "GEOMETRIC_SET"

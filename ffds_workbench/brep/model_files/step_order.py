@@ -53,7 +53,9 @@ def ordered(shape: Part.Shape) -> Part.Shape:
 def disordered(shape: Part.Shape) -> tuple[int, ...]:
     """Indices of the faces round which the edges go in an order that is neither that of their numbers nor its reverse.
 
-    A loop of a STEP file goes round in order: it cannot number them so.
+    No STEP file can number them so: OCCT's reader first of all puts the edges of a loop in the order in which they
+    follow each other in space (``ShapeFix_Wire::FixReorder``). Only what it divides later, an edge through the pole of
+    a face met after this one, comes into this loop in another order.
     """
     return _Arrangement(parse(shape.exportBrepToString())).disordered()
 
