@@ -69,6 +69,17 @@ def test_distances_are_those_of_closed_forms():
     np.testing.assert_allclose(off, 0.3, atol=EXACT)
 
 
+def test_steps_from_beside_a_pole_stay_on_the_surface():
+    """There S_u vanishes: without bounds a step along it went round a periodic surface a million times."""
+    sphere = Part.makeSphere(10).Faces[0].Surface.toBSpline()
+    sphere.setUPeriodic()
+    angle = np.linspace(0.01, 3, 50)
+    points = 10.5 * np.stack([np.sin(angle), np.zeros(50), np.cos(angle)], axis=1)
+    off = judge._newton(sphere, points, np.full((50, 2), [1.0, sphere.bounds()[3] - 1e-6]))
+    # The last of eight steps is of a thousandth of a radian, and its error that squared, times the radius.
+    assert np.abs(off - 0.5).max() < 1e-3
+
+
 def test_other_numbers_are_found():
     box = Part.makeBox(10, 20, 30)
     assert numbers.changes(box, box.copy()) == []
