@@ -32,8 +32,9 @@ def test_the_core_of_the_suite_passes(without_open3d):
     assert "No module named open3d" in done.stdout  # so says a skipped test: it was hidden
 
 
-@pytest.mark.parametrize("options", [["--remove-plane"], ["--remove-clutter"], ["--remove-outliers"], ["--spacing", "1"],
-                                     ["--normals", "--view", "0,0,99"]])
+@pytest.mark.parametrize("options", [
+    ["--remove-plane"], ["--remove-clutter"], ["--remove-outliers"], ["--spacing", "1"],
+    ["--normals", "--view", "0,0,99"]])
 def test_a_step_that_needs_it_says_so_in_one_sentence(ffds, plate, without_open3d, options):
     done = ffds("prepare", plate[1], "--out", "clean.ply", *options, env=without_open3d)
     assert done.returncode == 2 and len(done.stderr.splitlines()) == 1
