@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Machines unlike ours: no shell, paths with blanks and umlauts, nothing writable but the output, lines ending in CRLF."""
+"""Machines unlike ours: no shell, paths with blanks and umlauts, nothing writable but the output, lines ending CRLF."""
 from __future__ import annotations
 
 import os
@@ -22,9 +22,9 @@ def _files(folder: Path) -> set[Path]:
 
 @pytest.fixture
 def bare(tmp_path):
-    """Runs ``python -m ffds_workbench.cli`` of a read-only copy in a folder "Mod ä", with no program on the path, a home
-    that cannot be made and, as on Windows, no module ``resource``. Who is root may write all the same: so the copy is
-    also looked at afterwards."""
+    """Runs ``python -m ffds_workbench.cli`` of a read-only copy in a folder "Mod ä", with no program on the path, a
+    home that cannot be made and, as on Windows, no module ``resource``. Who is root may write all the same: so the
+    copy is also looked at afterwards."""
     mod = tmp_path / "Blech ß" / "Mod ä" / "FFDS"
     shutil.copytree(ROOT / "ffds_workbench", mod / "ffds_workbench", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "resources" / "translations", mod / "resources" / "translations")
@@ -40,8 +40,8 @@ def bare(tmp_path):
         return subprocess.run(
             [sys.executable, "-P", "-m", "ffds_workbench.cli", *map(str, arguments)], cwd=tmp_path, text=True,
             stdin=subprocess.DEVNULL, capture_output=True, timeout=120,
-            env={"PATH": "/nonexistent", "HOME": "/dev/null/home", "PYTHONPATH": os.pathsep.join([str(hidden), str(mod)]),
-                 "LC_ALL": "C"})
+            env={"PATH": "/nonexistent", "HOME": "/dev/null/home",
+                 "PYTHONPATH": os.pathsep.join([str(hidden), str(mod)]), "LC_ALL": "C"})
 
     yield run
     for folder in folders:
@@ -76,7 +76,8 @@ STL = ("solid s\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 5 6\nver
 
 @pytest.mark.parametrize("name, text", [
     ("a.ply", PLY), ("a.pcd", PCD), ("a.stl", STL), ("a.xyz", "1 2 3\n4 5 6\n"),
-    ("a.csv", "x;y;z\n1,0;2,0;3,0\n4;5;6\n"), ("a.pts", "2\n1 2 3\n4 5 6\n"), ("a.asc", "# c\n1 2 3\n4 5 6\n"), ("a.txt", "x y z\n1 2 3\n4 5 6\n")])
+    ("a.csv", "x;y;z\n1,0;2,0;3,0\n4;5;6\n"), ("a.pts", "2\n1 2 3\n4 5 6\n"),
+    ("a.asc", "# c\n1 2 3\n4 5 6\n"), ("a.txt", "x y z\n1 2 3\n4 5 6\n")])
 def test_lines_may_end_as_in_windows(tmp_path, name, text):
     (tmp_path / name).write_bytes(text.replace("\n", "\r\n").encode())
     assert np.array_equal(files.read(tmp_path / name).points[:2], [[1, 2, 3], [4, 5, 6]])
