@@ -69,15 +69,14 @@ def test_distances_are_those_of_closed_forms():
     np.testing.assert_allclose(off, 0.3, atol=EXACT)
 
 
-def test_steps_from_beside_a_pole_stay_on_the_surface():
-    """There S_u vanishes: without bounds a step along it went round a periodic surface a million times."""
-    sphere = Part.makeSphere(10).Faces[0].Surface.toBSpline()
-    sphere.setUPeriodic()
-    angle = np.linspace(0.01, 3, 50)
-    points = 10.5 * np.stack([np.sin(angle), np.zeros(50), np.cos(angle)], axis=1)
-    off = judge._newton(sphere, points, np.full((50, 2), [1.0, sphere.bounds()[3] - 1e-6]))
-    # The last of eight steps is of a thousandth of a radian, and its error that squared, times the radius.
-    assert np.abs(off - 0.5).max() < 1e-3
+def test_distances_are_found_near_the_poles_of_a_sphere():
+    """A periodic B-spline of R = 10, where one Newton step from a pole would turn round the axis without end."""
+    sphere = Part.makeSphere(10).toNurbs()
+    u = np.linspace(0.1, 6.1, 40)
+    points = np.tile([0.05, 0.0, 10.3], (40, 1))
+    uv = np.column_stack([u, np.full(40, sphere.Faces[0].ParameterRange[3])])
+    off = judge.distances(sphere, WorldTruth(points, points, np.zeros(40, int), uv, np.ones(40, bool), None, None))
+    np.testing.assert_allclose(off, np.hypot(0.05, 10.3) - 10, atol=EXACT)
 
 
 def test_other_numbers_are_found():
