@@ -86,8 +86,10 @@ def _from_face(face: Part.Face, points: Array, uv: Array) -> Array:
 
 
 def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
-    """Distances after Gauss-Newton steps from (u, v), inside the surface's bounds where it is not periodic."""
+    """Distances after Gauss-Newton steps from (u, v), inside the surface's bounds where it is not periodic; none is
+    longer than the surface, as near a pole they have no bound."""
     bounds = np.array(surface.bounds()).reshape(2, 2)
+    longest = np.ptp(bounds, axis=1)
     bounds[[surface.isUPeriodic(), surface.isVPeriodic()]] = -np.inf, np.inf
     nearest = np.full(len(points), np.inf)
     for _ in range(_STEPS):
@@ -103,7 +105,7 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
                                                                   (along_v, along_v), (along_u, away), (along_v, away)))
         determinant = np.maximum(e * g - f * f, 1e-12 * e * g + 1e-300)
         step = np.stack([g * p - f * q, e * q - f * p], axis=1) / determinant[:, None]
-        uv = np.clip(uv + step, bounds[:, 0], bounds[:, 1])
+        uv = np.clip(uv + np.clip(step, -longest, longest), bounds[:, 0], bounds[:, 1])
     return nearest
 
 
