@@ -164,7 +164,8 @@ def test_before_is_what_the_deviation_of_the_nominal_is():
 
 
 def test_an_edge_of_no_face_stays_and_is_named(scan):
-    plate = Part.makeCompound([Part.makeBox(60, 40, 5), Part.makeLine(FreeCAD.Vector(0, 0, 9), FreeCAD.Vector(60, 0, 9))])
+    line = Part.makeLine(FreeCAD.Vector(0, 0, 9), FreeCAD.Vector(60, 0, 9))
+    plate = Part.makeCompound([Part.makeBox(60, 40, 5), line])
     result = api.register(plate, scan)
     assert result.report["sheet"]["loose"] == ["Edge13"] and "Edge13 bounds no face" in result.table()
     assert result.report["edges"][12]["flag"] == "nominal"
