@@ -127,7 +127,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature)
     distance = distance_to_trims(part.faces, lattices, cells)
     lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
@@ -136,9 +136,10 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, [couplings.scalar, *others.graphs], _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
+    margin = trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise))
+    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
-                   pattern, constant_rows(pattern, stiffness, couplings.scalar, others), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths,
+                   pattern, constant_rows(pattern, stiffness, couplings.scalar, others), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 

@@ -84,7 +84,8 @@ def _renewed_cache(problem: Problem, stage: Stage, state: State, jet: Jet) -> St
     edges, sides = problem.couplings.edges, problem.sides
     near = find_near_edges(problem.scan, edges, sides, control_points, cache.edges.near)
     borders = find_borders(near, edges, sides, control_points, problem.lengths.noise,
-                           np.maximum(state.values.scatter.loss, problem.lengths.border), cache.edges.borders)
+                           np.maximum(state.values.scatter.loss, problem.lengths.border),
+                           state.values.count / np.maximum(problem.area.ravel(), 1e-12), cache.edges.borders)
     cache = replace(cache, edges=EdgeCache(near, borders))
     if not stage.body:
         return cache
