@@ -17,7 +17,7 @@ from .dissection import dissect
 _CG_STEPS = 12
 """Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
 _CG_TOLERANCE = 3e-3
-_ONE, _OTHER = np.triu_indices(16)
+_PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)
 """Pairs of the control points of a span, (136,) each."""
 
 
@@ -64,7 +64,7 @@ class Pattern:
         self.indptr, self.indices = upper.indptr, upper.indices
         self.rows = np.repeat(np.arange(n), np.diff(self.indptr))
         self._keys = self.rows * n + self.indices
-        pairs = lattices.controls[:, _ONE], lattices.controls[:, _OTHER]
+        pairs = lattices.controls[:, _PAIR_ROW], lattices.controls[:, _PAIR_COLUMN]
         self._turned = pairs[0] > pairs[1]
         self._span_position = self._position(np.minimum(*pairs), np.maximum(*pairs))
         self.layout = FrontLayout(dissect(pattern, position), self.rows, self.indices)
@@ -80,13 +80,13 @@ class Pattern:
 
     def from_spans(self, values: Array, spans: Index | slice = slice(None)) -> Array:
         """Sum up symmetric ``values`` of all spans or of the given ones: (spans, 16, 16) to (size,)."""
-        return self._summed(values.reshape(-1, 256)[:, 16 * _ONE + _OTHER], spans)
+        return self._summed(values.reshape(-1, 256)[:, 16 * _PAIR_ROW + _PAIR_COLUMN], spans)
 
     def from_span_blocks(self, matrices: Array) -> Array:
         """Sum up symmetric ``matrices`` (spans, 3, 16, 3, 16) of all spans: (3, 3, size)."""
         result = np.empty((3, 3, self.size))
         for a, b in product(range(3), repeat=2):
-            own, transposed = matrices[:, a, _ONE, b, _OTHER], matrices[:, b, _ONE, a, _OTHER]
+            own, transposed = matrices[:, a, _PAIR_ROW, b, _PAIR_COLUMN], matrices[:, b, _PAIR_ROW, a, _PAIR_COLUMN]
             result[a, b] = self._summed(np.where(self._turned, transposed, own))
         return result
 
@@ -100,8 +100,8 @@ class Pattern:
         own = blocks[:, :, self._span_position[spans]]
         own = np.where(self._turned[spans], own.swapaxes(0, 1), own)
         result = np.empty((own.shape[2], 16, 16, 3, 3))
-        result[:, _ONE, _OTHER] = own.transpose(2, 3, 0, 1)
-        result[:, _OTHER, _ONE] = own.transpose(2, 3, 1, 0)
+        result[:, _PAIR_ROW, _PAIR_COLUMN] = own.transpose(2, 3, 0, 1)
+        result[:, _PAIR_COLUMN, _PAIR_ROW] = own.transpose(2, 3, 1, 0)
         return result
 
     def from_scalar(self, matrix: spmatrix) -> Array:
