@@ -29,7 +29,7 @@ class SomeBlocks:
     values: Array
 
     def add_to(self, blocks: Array, weight: float) -> None:
-        """Add a multiple of them to the ``blocks`` (3, 3, size) of the whole pattern, in place."""
+        """Add them, times ``weight``, to the ``blocks`` (3, 3, size) of the whole pattern, in place."""
         for a, b in product(range(3), repeat=2):
             blocks[a, b, self.place] += weight * self.values[a, b]
 
