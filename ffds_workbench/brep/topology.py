@@ -10,6 +10,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import Part
@@ -161,7 +162,7 @@ def points_on_edge(edge: Part.Edge, fractions: Array) -> Array:
     return _on_curve(edge.Curve, first, last, fractions)
 
 
-def _on_curve(curve: Part.Curve | Part.Geom2d.Curve2d, first: float, last: float, fractions: Array) -> Array:
+def _on_curve(curve: Any, first: float, last: float, fractions: Array) -> Array:
     """Points of a curve at fractions 0…1 from a first parameter to a last one, (n, 3), or (n, 2) of a pcurve; of a line
     from its ends."""
     if isinstance(curve, (Part.Line, Part.Geom2d.Line2d)):
@@ -170,11 +171,11 @@ def _on_curve(curve: Part.Curve | Part.Geom2d.Curve2d, first: float, last: float
     return _values(curve, (first + (last - first) * fractions).tolist())
 
 
-def _values(curve: Part.Curve | Part.Geom2d.Curve2d, parameters: list[float]) -> Array:
+def _values(curve: Any, parameters: list[float]) -> Array:
     points = [curve.value(t) for t in parameters]
-    if isinstance(curve, Part.Curve):
-        return np.array([tuple(point) for point in points])
-    return np.array([(point.x, point.y) for point in points])
+    if isinstance(curve, Part.Geom2d.Curve2d):
+        return np.array([(point.x, point.y) for point in points])
+    return np.array([tuple(point) for point in points])
 
 
 def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[EdgeTrace]:
