@@ -111,9 +111,10 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
 
 
 def _figures(shape: Part.Shape, truth: WorldTruth, off: Array) -> dict[str, Any]:
-    edges = []
+    """Figures of the points, and of the edges that bound a face: the others are no part of a body."""
+    edges, bounds = [], {edge.hashCode() for face in shape.Faces for edge in face.Edges}
     for edge, before, true in zip(shape.Edges, truth.edges_nominal, truth.edges, strict=True):
-        if not edge.Degenerated and np.ptp(before, axis=0).max() > 0:
+        if not edge.Degenerated and np.ptp(before, axis=0).max() > 0 and edge.hashCode() in bounds:
             first, last = edge.ParameterRange
             line = np.array([tuple(edge.valueAt(t)) for t in np.linspace(first, last, _POLYLINE)])
             edges.append(to_polyline(true, line))
