@@ -52,7 +52,9 @@ def prepare(scans: Sequence[PointCloud | np.ndarray | str | Path], model: Model 
         raise InputError("Cropping to a model needs both, the model and a distance from it.")
     names = [str(scan) if isinstance(scan, (str, Path)) else f"number {number}"
              for number, scan in enumerate(scans, 1)]
-    surface = None if model is None else _surface(as_model(model).shape, _SAG * wanted.near)
+    surface = None
+    if model is not None and wanted.near is not None:
+        surface = _surface(as_model(model).shape, _SAG * wanted.near)
     return prepare_clouds([as_cloud(scan) for scan in scans], wanted, surface, names, progress)
 
 

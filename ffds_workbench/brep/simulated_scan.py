@@ -59,7 +59,8 @@ def edge_points(shape: Part.Shape, count: int = EDGE_SAMPLES) -> Array:
         if edge.Degenerated:
             lines.append([tuple(edge.Vertexes[0].Point)] * count)
         else:
-            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, count)])
+            first, last = edge.ParameterRange
+            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(first, last, count)])
     return np.array(lines).reshape(-1, count, 3)
 
 

@@ -36,9 +36,8 @@ def with_free_shapes(text: str, shape: Part.Shape) -> str:
     if found is None:
         return text
     items = [int(item) for item in _REFERENCE.findall(found[1])]
-    solids, sheets, curves, others = (
-        [item for item in items if entities[item].startswith(kinds)]
-        for kinds in (_SOLIDS, _SHEET, _CURVES, "AXIS2_PLACEMENT_3D"))
+    kinds: tuple[tuple[str, ...], ...] = _SOLIDS, (_SHEET,), (_CURVES,), ("AXIS2_PLACEMENT_3D",)
+    solids, sheets, curves, others = ([item for item in items if entities[item].startswith(kind)] for kind in kinds)
     free = [part for body in bodies if isinstance(body, list) for part in body]
     whole = [body.ShapeType for body in bodies if not isinstance(body, list)]
     told = whole.count("Solid"), len(whole) - whole.count("Solid"), sum(part.ShapeType == "Edge" for part in free)

@@ -11,6 +11,7 @@ loops. An edge is turned where its vertices, both met there first, would change 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import Part
@@ -158,7 +159,7 @@ class _Arrangement:
         seam = next(use.edge for use in loop if use.edge not in poles)
         turned, axis = (surface.exchanged(), 0) if poles[0] < seam else (surface, 1)
         ends = (self._uv(face, next(use for use in loop if use.edge == pole)) for pole in poles)
-        first, last = (np.mean(uv, axis=0) for uv in ends)
+        first, last = (np.mean(cast(Array, uv), axis=0) for uv in ends)  # a pole is nothing but its pcurve
         backwards_now = (turned.matrix @ (last - first))[axis] < 0
         return turned.turned(axis) if backwards_now else turned
 
