@@ -154,7 +154,7 @@ def _pick(path: Path, document: Any, label: str | None) -> Any:
     return whole[0]
 
 
-def _check_links(path: Path, document: object) -> None:
+def _check_links(path: Path, document: FreeCAD.Document) -> None:
     """Refuse a document of which a part lies in another one that is not there (InputError)."""
     empty = [item.Label for item in document.Objects if item.TypeId == "App::Link" and item.LinkedObject is None]
     if empty:
