@@ -2,12 +2,12 @@
 """Seams to files: tables, robot programs, the report and its picture, all of them or none."""
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from ...errors import InputError, RefusedError
 from ...output import check_writable, replacing
+from ...report import record
 from ..clearance import blocked_ways
 from ..measured import MeasuredSeam
 from ..plan import SeamPlan
@@ -91,8 +91,7 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
         for out in files:
             _write_one(out, names, plan, paths, robot)
         if report is not None:
-            text = json.dumps(plan.record(), indent=1, ensure_ascii=False, allow_nan=False)
-            names[report].write_text(text + "\n", "utf-8")
+            record.write(plan.record(), names[report])
         if drawing is not None:
             draw(names[drawing], plan)
     renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in files
