@@ -27,6 +27,13 @@ def qt(module: str) -> Any:
         return importlib.import_module(f"PySide6.{module}")
 
 
+def freecad_version() -> str:
+    """Major, minor and patch of the FreeCAD that runs, "1.1.3" for instance."""
+    import FreeCAD
+
+    return ".".join(FreeCAD.Version()[:3])
+
+
 def execute(loop_or_dialog: Any) -> int:
     """Run a dialog or an event loop until it ends: ``exec_`` in Qt 5, ``exec`` in Qt 6."""
     run = getattr(loop_or_dialog, "exec", None) or loop_or_dialog.exec_
@@ -115,4 +122,4 @@ def _count(content: bytes) -> int:
 
 def _colours(packed: np.ndarray) -> tuple[Colour, ...]:
     channels = packed[:, None] >> np.array([24, 16, 8, 0], dtype=np.uint32) & 255
-    return tuple(tuple(row) for row in (channels / 255.0).tolist())
+    return tuple((red, green, blue, other) for red, green, blue, other in (channels / 255.0).tolist())

@@ -22,13 +22,13 @@ SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for pat
                  if ".git" not in path.parts and path.is_file() and "out" not in path.relative_to(ROOT).parts[:1])
 
 
-LONGEST, ROOMIEST = 300, 15
-"""Lines of a module, and modules of a folder."""
+LONGEST, LONGEST_FUNCTION, ROOMIEST = 300, 45, 15
+"""Lines of a module and of a function without its docstring, and modules of a folder."""
 ARROWS = {"registration/joint": 75, "registration/rigid": 44}
 """How many arrows there may be between the rooms of a package, its modules and folders: so few that one can keep them
 in mind."""
 WHY_LONG = "# Long because "
-"""A comment line that begins like this allows a module to be longer."""
+"""A comment line that begins like this allows a module or the function that it stands in to be longer."""
 
 
 def _layer(path: Path) -> str:
@@ -69,6 +69,16 @@ def test_every_source_names_its_licence(path):
 def test_modules_stay_short(path):
     lines = path.read_text("utf-8").splitlines()
     assert len(lines) <= LONGEST or any(line.startswith(WHY_LONG) for line in lines), "split this module by noun"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_functions_stay_short(path):
+    text = path.read_text("utf-8")
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
+            length = len(lines) - len((ast.get_docstring(node, clean=False) or "").splitlines())
+            assert length <= LONGEST_FUNCTION or any(line.strip().startswith(WHY_LONG) for line in lines), node.name
 
 
 @pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}),

@@ -48,6 +48,12 @@ def test_places_tell_it_for_a_block_away_from_the_origin():
     assert unit_mismatch(scan, low, high, lambda: (points, normals)) is None
 
 
+def test_a_face_without_bounds_is_bad_input():
+    """As a damaged IGES file holds it: nothing of it can be meshed."""
+    with pytest.raises(InputError, match="no bounds"):
+        surface_samples(Part.Plane().toShape())
+
+
 def test_parts_of_the_surface_and_tables_pass(bracket):
     """Nothing that lies on the part is doubted, be it a hundredth of it or a tenth of what was scanned."""
     _, points, low, high, surface = bracket

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +111,19 @@ def test_text(tmp_path, name):
     assert cloud.dropped == dropped
 
 
+def test_reading_stl_takes_memory_for_its_corners(tmp_path):
+    """Of a facet's 50 bytes: itself, its corners twice while they are sorted, and two numbers for each of them."""
+    facets = np.zeros(200_000, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]))
+    facets["corners"] = np.random.default_rng(1).integers(0, 9, (len(facets), 3, 3))
+    path = tmp_path / "large.stl"
+    path.write_bytes(b"a scan".ljust(80) + struct.pack("<I", len(facets)) + facets.tobytes())
+    tracemalloc.start()
+    files.read(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 5 * path.stat().st_size
+
+
 def test_stl_corners_are_merged(tmp_path):
     corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0], [0, 1, 0]]], dtype="<f4")
     binary = b"solid but binary".ljust(80) + struct.pack("<I", 2)
@@ -143,7 +157,7 @@ BAD = {
     "missing.ply": (None, "does not exist"),
     "folder.ply": ("folder", "is a folder"),
     "empty.ply": (b"", "is empty"),
-    "unknown.las": (b"1 2 3", "unknown format"),
+    "unknown.dxf": (b"1 2 3", "unknown format"),
     "cut binary.ply": (ply(POINTS, "binary_little_endian")[:-30], "promises 40 points, 38 are there"),
     "cut text.ply": (ply(POINTS, "ascii")[:-20], "promises 40 points, 39 are there"),
     "short.ply": (ply(POINTS, "binary_big_endian", promised=99), "promises 99 points, 40 are there"),

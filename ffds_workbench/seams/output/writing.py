@@ -2,12 +2,12 @@
 """Seams to files: tables, robot programs, the report and its picture, all of them or none."""
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from ...errors import InputError, RefusedError
 from ...output import check_writable, replacing
+from ...report import record
 from ..clearance import blocked_ways
 from ..measured import MeasuredSeam
 from ..plan import SeamPlan
@@ -24,7 +24,18 @@ _KRL_NAME_LIMIT = 24
 
 
 def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), inputs: Sequence[Path] = ()) -> None:
-    """Refuse tables and programs (``outs``), reports and pictures (``extra``) that cannot be written (InputError)."""
+    """Refuse files that cannot be written, before any work is done.
+
+    Parameters
+    ----------
+    outs : tables and programs
+    extra : reports and pictures, None for those that are not wanted
+    inputs : files that were read and must not be written over
+
+    Raises
+    ------
+    InputError : a format is unknown, a folder is not there, two files are one, or one of them is an input
+    """
     targets = [target for out in outs for target in _targets(out)] + [path for path in extra if path is not None]
     if len({target.resolve() for target in targets}) < len(targets):
         raise InputError("Two outputs have the same name: choose different ones.")
@@ -48,6 +59,14 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     Programs hold the seams within their limits, and the others where the robot's settings ask for them; tables, the
     report and the picture hold all seams.
 
+    Parameters
+    ----------
+    plan : the seams
+    outs : tables (.csv) and programs (.src, .mod, .script, .FCStd)
+    robot : its tool, base and motion; the defaults of `RobotSettings`
+    report_path, picture : files: .json, and .png
+    inputs : files that were read and must not be written over
+
     Returns
     -------
     notes : sentences on what the user must know of the programs
@@ -57,37 +76,48 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
     RefusedError : a program would hold no seam, or the disk is full
     """
-    outs, inputs = list(map(Path, outs)), list(map(Path, inputs))
-    report_path, picture = (None if path is None else Path(path) for path in (report_path, picture))
-    check_seam_outputs(outs, (report_path, picture), inputs)
-    extra = [path for path in (report_path, picture) if path is not None]
+    files = list(map(Path, outs))
+    report, drawing = (None if path is None else Path(path) for path in (report_path, picture))
+    check_seam_outputs(files, (report, drawing), list(map(Path, inputs)))
+    extra = [path for path in (report, drawing) if path is not None]
     robot = robot or RobotSettings()
     paths = [moves(seam, robot) for seam in programmed_seams(plan, robot)]
-    if not paths and any(out.suffix.lower() in PROGRAMS for out in outs):
+    if not paths and any(out.suffix.lower() in PROGRAMS for out in files):
         raise RefusedError("No seam is within its limits, so no program was written: look at the report, set other "
                            "limits, or keep failing seams (--keep-failing).")
-    targets = [target for out in outs for target in _targets(out)] + extra
+    targets = [target for out in files for target in _targets(out)] + extra
     with replacing(*targets) as temporary:
         names = dict(zip(targets, temporary, strict=True))
-        for out in outs:
+        for out in files:
             _write_one(out, names, plan, paths, robot)
-        if report_path is not None:
-            text = json.dumps(plan.record(), indent=1, ensure_ascii=False, allow_nan=False)
-            names[report_path].write_text(text + "\n", "utf-8")
-        if picture is not None:
-            draw(names[picture], plan)
-    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
+        if report is not None:
+            record.write(plan.record(), names[report])
+        if drawing is not None:
+            draw(names[drawing], plan)
+    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in files
                if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
     return program_notes(plan, robot) + renamed
 
 
 def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]:
-    """The seams that come into programs."""
+    """The seams that come into programs.
+
+    Parameters
+    ----------
+    plan : all seams
+    robot : whether failing ones are kept
+    """
     return [seam for seam in plan.seams if robot.keep_failing or not seam.exceeded(plan.limits)]
 
 
 def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
-    """What the user must know of the programs of a plan, as sentences; known before they are written."""
+    """What the user must know of the programs, as sentences; known before they are written.
+
+    Parameters
+    ----------
+    plan : the seams
+    robot : its tool, base and motion
+    """
     failing = [f"{seam.name} ({', '.join(exceeded)})" for seam in plan.seams
                if (exceeded := seam.exceeded(plan.limits))]
     notes = []
@@ -107,7 +137,7 @@ def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequen
         write_document(names[out], paths, robot)
         return
     if suffix == ".csv":
-        texts = (csv_text(plan.seams),)
+        texts: tuple[str, ...] = (csv_text(plan.seams),)
     elif suffix == ".src":
         texts = krl_texts(out.stem, paths, robot)
     else:

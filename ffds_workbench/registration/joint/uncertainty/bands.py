@@ -23,7 +23,7 @@ the spacing of the points, over them (calibrated: families of the accuracy bench
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
     """Covariance of the control points of spans from its blocks on the pattern: (n, 16, 16, 3, 3)."""
-    return covariance[problem.pattern.between(spans)].reshape(len(spans), 16, 16, 3, 3)
+    return problem.pattern.of_spans(covariance, spans)
 
 
 def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Array, normal: Array, gap: Array,
