@@ -28,7 +28,7 @@ from ..brep import workpiece
 from ..brep.simulated_scan import scene_of as sensor_target_of
 from ..registration.face_geometry import FaceGeometry
 from ..registration.motions import angle, apply, best_fit, motion
-from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
+from ..registration.rigid import AMBIGUOUS, FAILED, RigidSettings, SampleSettings, Target, align, target_of
 from ..scan.sensor import SensorSettings, View, simulate
 from .pages.page import Section, Table, write
 from .simulated.families import Case, make_case
@@ -307,7 +307,7 @@ def _real(folder: Path, seeds: int, progress: Callable[[str], None]) -> tuple[Ta
     part = workpiece.read(shape)
     faces = [part.geometry(k) for k in range(len(part.faces))]
     target = target_of(faces)
-    dense = cKDTree(target_of(faces, 250_000).samples.points)
+    dense = cKDTree(target_of(faces, RigidSettings(samples=SampleSettings(250_000))).samples.points)
     raw = np.asarray(o3d.io.read_point_cloud(str(folder / "scan_robot_laser_60deg.pcd")).points)
     known = np.array(json.loads((folder / "pose.json").read_text())["T_model_scan_mm"])
 

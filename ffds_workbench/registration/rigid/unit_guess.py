@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array
+from .settings import UnitSettings
 
 SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
 """Factors to mm that scans come in beside 1; each may also be off the other way round."""
-_TRUSTED_RATIO = (0.3, 4.0)
-"""Ratio of scan size to part size at which the unit given is tried first: partial views below, clutter above."""
-_POSSIBLE_RATIO = (0.12, 10.0)
-_TRIED_SCALES = 3
 
 
 def extent(scan: Array) -> float:
@@ -21,19 +18,21 @@ def extent(scan: Array) -> float:
     return float(np.linalg.norm(high - low))
 
 
-def plausible_scales(scan: Array, size: float) -> list[float]:
+def plausible_scales(scan: Array, size: float, settings: UnitSettings | None = None) -> list[float]:
     """Factors to try on the scan's coordinates, the likeliest first.
 
     Parameters
     ----------
     scan : (n, 3)
     size : diagonal of the part in mm
+    settings : ratios of sizes; None for the defaults
     """
+    settings = settings or UnitSettings()
     ratio = max(extent(scan), 1e-300) / size
     factors = [1.0, *SCALES.values(), *(1.0 / factor for factor in SCALES.values())]
-    possible = [f for f in factors if _POSSIBLE_RATIO[0] < ratio * f < _POSSIBLE_RATIO[1]]
-    trusted = _TRUSTED_RATIO[0] < ratio < _TRUSTED_RATIO[1]
-    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:_TRIED_SCALES]
+    possible = [f for f in factors if settings.possible[0] < ratio * f < settings.possible[1]]
+    trusted = settings.trusted[0] < ratio < settings.trusted[1]
+    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:settings.tried]
 
 
 def unit_name(scale: float) -> str:

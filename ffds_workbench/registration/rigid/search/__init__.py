@@ -3,8 +3,7 @@
 stages).
 """
 from .candidates import nearest_field
-from .proposals import LOCAL_SEARCH, QUICK_SEARCH, THOROUGH_SEARCH, SearchStage, propose
-from .starts import starts_around, starts_of, turns_up_to
+from .proposals import propose
+from .starts import starts_of
 
-__all__ = ["LOCAL_SEARCH", "QUICK_SEARCH", "THOROUGH_SEARCH", "SearchStage", "nearest_field", "propose",
-           "starts_around", "starts_of", "turns_up_to"]
+__all__ = ["nearest_field", "propose", "starts_of"]

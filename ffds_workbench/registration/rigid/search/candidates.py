@@ -13,12 +13,9 @@ from scipy.spatial import cKDTree
 from ...arrays import Array
 from ...motions import angle, apply, shift, twist_motion, twist_rows
 from ..model import Target, kept_with_target
+from ..search_settings import SearchSettings
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
-_SAME_SIDE_COSINE = 0.35
-_TABLE_VOXELS, _TABLE_MARGIN = 40, 0.2
-"""Number of voxels of the look-up table along its longest side, and its margin around the part as a share of the part's
-size."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +30,7 @@ class NearestField:
         for normals that are not known
     points, normals : (m, 3) samples
     centre, size : of the part, (3,) and a length in mm
+    settings : of the search
     """
 
     origin: Array
@@ -42,6 +40,7 @@ class NearestField:
     normals: Array
     centre: Array
     size: float
+    settings: SearchSettings
 
     def __call__(self, points: Array, normals: Array | None) -> NDArray[np.int32]:
         """Index of the nearest sample for points and normals (…, 3); outside the grid the border counts."""
@@ -60,15 +59,19 @@ class NearestField:
 def nearest_field(target: Target) -> NearestField:
     """The look-up table of the part that ``target`` is, and of its surroundings."""
     points, normals = target.even.points, target.even.normals
-    low, high = points.min(axis=0) - _TABLE_MARGIN * target.size, points.max(axis=0) + _TABLE_MARGIN * target.size
-    voxel = float((high - low).max()) / _TABLE_VOXELS
+    settings = target.settings.search
+    margin = settings.margin * target.size
+    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+    voxel = float((high - low).max()) / settings.voxels
     axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
     tables = []
-    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE_COSINE) for side in _SIDES), np.arange(len(points))]:
+    on_side = [np.flatnonzero(normals @ side > settings.same_side_cosine) for side in _SIDES]
+    for facing in [*on_side, np.arange(len(points))]:
         facing = facing if len(facing) else np.arange(len(points))
         tables.append(facing[cKDTree(points[facing]).query(grid.reshape(-1, 3))[1]].reshape(grid.shape[:3]))
-    return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size)
+    return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size,
+                        settings)
 
 
 @dataclass(frozen=True)
@@ -117,24 +120,25 @@ class Probe:
 def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Sequence[float]) -> Candidates:
     """One Gauss-Newton step per gate for all candidates; ``gates`` are the distances in mm at which the weight
     (Geman-McClure) has fallen to a quarter."""
+    settings = field.settings
     poses, scale = candidates.poses, np.array([2.0 / field.size] * 3 + [1.0] * 3)
     for gate in gates:
         moved, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, poses)
         distance = np.einsum("kmi,kmi->km", offset, offset)
-        weight = (gate**2 / (gate**2 + distance)) ** 2 * (0.02 + agreement**2)
+        weight = (gate**2 / (gate**2 + distance)) ** 2 * (settings.side_floor + agreement**2)
         height = np.einsum("kmi,kmi->km", normal, offset)
         jacobian = twist_rows(moved - field.centre, normal) * scale
         weighted = jacobian * weight[:, :, None]
         matrix = np.swapaxes(weighted, 1, 2) @ jacobian
         right = -np.einsum("kmi,km->ki", weighted, height)
         # a weak pull towards the sample itself: where planes leave a direction free the outline still guides the pose
-        pull = 0.1 * weight
+        pull = settings.pull * weight
         matrix[:, 3:, 3:] += np.eye(3) * pull.sum(axis=1)[:, None, None]
         right[:, 3:] -= np.einsum("km,kmi->ki", pull, offset)
-        matrix += np.eye(6) * (1e-3 * weight.sum(axis=1) + 1e-12)[:, None, None]
+        matrix += np.eye(6) * (settings.damping * weight.sum(axis=1) + 1e-12)[:, None, None]
         update = np.linalg.solve(matrix, right[:, :, None])[:, :, 0] * scale
         turn = np.linalg.norm(update[:, :3], axis=1, keepdims=True)
-        update[:, :3] *= np.minimum(1.0, 0.5 / np.maximum(turn, 1e-12))
+        update[:, :3] *= np.minimum(1.0, settings.longest_turn / np.maximum(turn, 1e-12))
         poses = twist_motion(update, field.centre) @ poses
     return Candidates(poses, candidates.signs)
 
@@ -148,12 +152,12 @@ def scores(field: NearestField, probe: Probe, candidates: Candidates, width: flo
 
 def _match_nearest(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
     """Moved points, their offsets from the nearest samples, those samples' normals, and how well they agree."""
-    moved = apply(poses, probe.points)
+    moved, blind = apply(poses, probe.points), field.settings.blind_agreement
     turned = signs[:, probe.piece, None] * (probe.normals @ np.swapaxes(poses[:, :3, :3], -1, -2))
     nearest = field(moved, turned if probe.sided else None)
     surface_normal = field.normals[nearest]
     cosine = np.einsum("kmi,kmi->km", turned, surface_normal)
-    agreement = np.maximum(cosine, 0.0) if probe.sided else 0.6 + 0.4 * np.abs(cosine)
+    agreement = np.maximum(cosine, 0.0) if probe.sided else blind + (1.0 - blind) * np.abs(cosine)
     return moved, moved - field.points[nearest], surface_normal, agreement
 
 
