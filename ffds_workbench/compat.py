@@ -115,4 +115,4 @@ def _count(content: bytes) -> int:
 
 def _colours(packed: np.ndarray) -> tuple[Colour, ...]:
     channels = packed[:, None] >> np.array([24, 16, 8, 0], dtype=np.uint32) & 255
-    return tuple(tuple(row) for row in (channels / 255.0).tolist())
+    return tuple((red, green, blue, other) for red, green, blue, other in (channels / 255.0).tolist())

@@ -22,10 +22,13 @@ SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for pat
                  if ".git" not in path.parts and path.is_file() and "out" not in path.relative_to(ROOT).parts[:1])
 
 
-LONGEST, ROOMIEST = 300, 15
-"""Lines of a module, and modules of a folder."""
+LONGEST, LONGEST_FUNCTION, ROOMIEST = 300, 45, 15
+"""Lines of a module and of a function without its docstring, and modules of a folder."""
+ARROWS = {"registration/joint": 75, "registration/rigid": 44}
+"""How many arrows there may be between the rooms of a package, its modules and folders: so few that one can keep them
+in mind."""
 WHY_LONG = "# Long because "
-"""A comment line that begins like this allows a module to be longer."""
+"""A comment line that begins like this allows a module or the function that it stands in to be longer."""
 
 
 def _layer(path: Path) -> str:
@@ -68,6 +71,16 @@ def test_modules_stay_short(path):
     assert len(lines) <= LONGEST or any(line.startswith(WHY_LONG) for line in lines), "split this module by noun"
 
 
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_functions_stay_short(path):
+    text = path.read_text("utf-8")
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            lines = text.splitlines()[node.lineno - 1 : node.end_lineno]
+            length = len(lines) - len((ast.get_docstring(node, clean=False) or "").splitlines())
+            assert length <= LONGEST_FUNCTION or any(line.strip().startswith(WHY_LONG) for line in lines), node.name
+
+
 @pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}),
                          ids=lambda folder: str(folder.relative_to(ROOT)))
 def test_folders_stay_clear(folder):
@@ -83,6 +96,16 @@ def test_no_files_import_each_other_in_a_circle():
         TopologicalSorter(arrows).prepare()
     except CycleError as circle:
         raise AssertionError(" → ".join(circle.args[1])) from None
+
+
+@pytest.mark.parametrize("package", ARROWS)
+def test_few_arrows_lead_from_room_to_room(package):
+    prefix = _module(PACKAGE / package / "__init__.py") + "."
+    found = {(_module(path).removeprefix(prefix).split(".")[0], name.removeprefix(prefix).split(".")[0])
+             for path in (PACKAGE / package).rglob("*.py") if _module(path) + "." != prefix
+             for name in map(_file_of({_module(module): module for module in MODULES}), _imports(path))
+             if name and name.startswith(prefix)}
+    assert sum(start != end for start, end in found) <= ARROWS[package]
 
 
 def _module(path: Path) -> str:

@@ -18,11 +18,12 @@ from ..output import replacing
 from ..registration.motions import describe_difference
 from ..registration.request import ALIGNMENTS
 from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.unit_mismatch import unit_by_size
+from ..registration.rigid.scan_unit import unit_by_size
 from ..report import record
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
 from ..scan.plausibility import wrong_unit
+from ..scan.poses import as_pose
 from ..scan.sensor.files import write_ply
 from ..scan.units import MILLIMETRES
 from .destinations import destinations
@@ -87,7 +88,7 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     """
     if mode not in ALIGNMENTS:
         raise InputError(f"The alignment '{mode}' is unknown: use one of {', '.join(ALIGNMENTS)}.")
-    begin = _start_pose(start)
+    begin = np.eye(4) if start is None else as_pose(start, "The start of the alignment")
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         cloud = as_cloud(scan)
@@ -138,17 +139,6 @@ def _refuse_unit(scan: PointCloud, model: Model) -> None:
     factor = unit_by_size(scan.points, size)
     if factor is not None:
         raise InputError(wrong_unit(scan, size, factor, model.unit))
-
-
-def _start_pose(start: np.ndarray | None) -> np.ndarray:
-    """The pose to start from, checked (InputError)."""
-    if start is None:
-        return np.eye(4)
-    pose = np.asarray(start, dtype=float)
-    if pose.shape != (4, 4) or not np.isfinite(pose).all() or not (
-            np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-6) and np.linalg.det(pose[:3, :3]) > 0):
-        raise InputError("The start of the alignment is no pose: give a (4, 4) matrix of a rotation and a shift in mm.")
-    return pose
 
 
 def _from(begin: np.ndarray, found: Alignment) -> Alignment:

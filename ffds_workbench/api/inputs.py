@@ -60,7 +60,7 @@ def as_request(faces: Sequence[str] | None = None, **settings: Any) -> Registrat
     ------
     InputError : as `RegistrationRequest` does, or the sensor cannot be read
     """
-    plain = {"faces": faces, **settings}
+    plain: dict[str, Any] = {"faces": faces, **settings}
     for name in ("faces", "freeze"):
         if plain.get(name) is not None:
             plain[name] = tuple(dict.fromkeys(plain[name]))

@@ -109,7 +109,7 @@ def register_face(face: FaceGeometry, points: Array, request: RegistrationReques
     ------
     RefusedError : too little of the scan lies on the face, or the lattice is too fine for it
     """
-    size = None if request.lattice == "auto" else request.lattice
+    size = request.counts
     if request.method == "ffds":
         return register_ffds(face, points, size, request.source_points)
     if request.method == "ffd-hsu":

@@ -51,7 +51,10 @@ def _measure(part: workpiece.Workpiece, model: api.Model, points: Array, names: 
              progress: Callable[[str], None]) -> dict[str, Any]:
     """Registrations that leave out every fifth point, judged on both lots over the faces that they moved."""
     label = ", ".join(names) if names else "all together"
-    fitted, before, after, used, problems = [], [], [], [], set()
+    fitted: list[FaceDeviation] = []
+    before: list[FaceDeviation] = []
+    after: list[FaceDeviation] = []
+    used, problems = [], set()
     for fold in range(_FOLDS):
         progress(f"Registering {label}: run {fold + 1} of {_FOLDS}")
         held = np.arange(len(points)) % _FOLDS == fold

@@ -61,16 +61,16 @@ def over_points(progress: Progress) -> list[Row]:
     scans = {count: scan("A", 1, count) for count in POINTS}
     jobs: dict[str, Callable[[], Any]] = {}
     for count, points in scans.items():
-        jobs |= {f"ffds {count}": lambda points=points: register_ffds(face, points, (10, 10), 400),
-                 f"robust {count}": lambda points=points: register_robust(face, points),
-                 f"kdtree {count}": lambda points=points: cKDTree(points),
-                 f"read {count}": lambda points=points: points.sum()}
+        jobs |= {f"ffds {count}": partial(register_ffds, face, points, (10, 10), 400),
+                 f"robust {count}": partial(register_robust, face, points),
+                 f"kdtree {count}": partial(cKDTree, points),
+                 f"read {count}": points.sum}
     progress(f"Scaling: {POINTS[0]:,} to {POINTS[-1]:,} points")
     seconds = best_seconds(jobs, _ROUNDS)
-    rows = []
+    rows: list[Row] = []
     for count in POINTS:
-        memory = {f"{name}_mb": peak_megabytes(jobs[f"{name} {count}"]) for name in ("ffds", "robust")}
-        rows.append({"points": count, **{name: seconds[f"{name} {count}"] for name in _NAMES}, **memory})
+        row: Row = {"points": count, **{name: seconds[f"{name} {count}"] for name in _NAMES}}
+        rows.append(row | {f"{name}_mb": peak_megabytes(jobs[f"{name} {count}"]) for name in ("ffds", "robust")})
     return rows
 
 

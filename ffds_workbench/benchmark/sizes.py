@@ -72,7 +72,7 @@ def make(folder: Path, solids: int = 0, spacing: float = 0.35, noise: float = 0.
         larger = part.shape.copy()
         larger.scale(scale)
         part, move, size = replace(part, shape=larger), _scaled(move, scale), scale * size
-    settings = SensorSettings(scale * spacing, scale * noise, views=tuple(View(tuple(item)) for item in part.views),
+    settings = SensorSettings(scale * spacing, scale * noise, views=tuple(View((x, y, z)) for x, y, z in part.views),
                               standoff=3 * size, field=(2 * size, 2 * size), limit=2_000_000)
     target, scan, truth = scanned(part, move, settings)
     part.shape.exportStep(str(folder / "nominal.step"))
@@ -105,7 +105,10 @@ def measure(folder: Path, noise: float) -> Row:
 def _exponent(rows: Sequence[Row], over: str, what: str) -> float | None:
     """Slope of the logarithms."""
     done = [(row[over], row[what]) for row in rows if what in row]
-    return float(np.polyfit(*np.log(np.array(done).T), 1)[0]) if len(done) > 1 else None
+    if len(done) < 2:
+        return None
+    x, y = np.log(done).T
+    return float(np.polyfit(x, y, 1)[0])
 
 
 def _sections(folder: Path, rows: dict[str, list[Row]], exponents: dict[str, float | None]) -> list[Section]:

@@ -139,7 +139,8 @@ def _sections(data: dict[str, Any]) -> list[Section]:
     scaling_text = ["Times are the shortest of four turns through all sizes: a busy moment of the machine must "
                     "not bend the curve. The peak memory is that of a process with one size alone, its scans included."]
     ratios = Table("Nanoseconds per further point, last step ÷ the one before", ["", "ratio"],
-                   [[name, f"{_further(*sizes[-2:], name) / _further(*sizes[-3:-1], name):.2f}"] for name in names]
+                   [[name, f"{_further(sizes[-2], sizes[-1], name) / _further(sizes[-3], sizes[-2], name):.2f}"]
+                    for name in names]
                    if len(sizes) > 2 else [])
     sections = [Section("Against a k-d tree", text, tables=[builds]),
                 Section("Scaling", scaling_text, tables=[scaling, ratios])]

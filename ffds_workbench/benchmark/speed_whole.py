@@ -60,7 +60,7 @@ def measure(progress: Progress, sizes: Sequence[int] = SIZES, faces: Sequence[in
 def scan_of(case: Case, count: int) -> Array:
     """A scan of that many points, taken as closely as it takes for them: (count, 3)."""
     spacing = _SPACING * np.sqrt(0.95 * len(case.scan.points) / count)
-    views = tuple(View(tuple(direction)) for direction in case.part.views)
+    views = tuple(View((x, y, z)) for x, y, z in case.part.views)
     points = simulate(case.target, SensorSettings(spacing=float(spacing), views=views)).points
     return points[:count]
 
@@ -71,9 +71,10 @@ def commands(case: Case, scan: Array) -> Row:
         shape, points, out = (Path(folder) / name for name in ("nominal.step", "scan.ply", "as_built.step"))
         case.part.shape.exportStep(str(shape))
         write_ply(points, scan)
-        command = [sys.executable, "-P", "-m", "ffds_workbench.cli", "register", shape, points, "--out", out]
+        files: list[str | Path] = [shape, points, "--out", out]
+        command = [sys.executable, "-P", "-m", "ffds_workbench.cli", "register", *files]
         runs = np.array([_command(command, out) for _ in range(_STARTS)])
-    written, ended, peak = *runs[:, :2].min(axis=0), runs[:, 2].max()
+    (written, ended), peak = runs[:, :2].min(axis=0), runs[:, 2].max()
     return {"written": float(written), "ended": float(ended), "peak_megabytes": float(peak)}
 
 
@@ -113,7 +114,8 @@ def over_faces(progress: Progress, counts: Sequence[int]) -> list[Row]:
 
 def exponent(rows: Sequence[Row]) -> float:
     """Slope of log time over log faces."""
-    return float(np.polyfit(*np.log([(row["faces"], row["register"]) for row in rows]).T, 1)[0])
+    faces, seconds = np.log([(row["faces"], row["register"]) for row in rows]).T
+    return float(np.polyfit(faces, seconds, 1)[0])
 
 
 def section(data: dict[str, list[Row]]) -> Section:

@@ -102,11 +102,11 @@ def run(folder: Path, progress: Progress) -> str:
         rows += measure(name, shape, progress)
     for name, shape in topology_shapes.primitives():
         rows += measure(name, shape, progress)
-    text = ("Every shape is rebuilt where it is (identity), with a bump of 2.5 % of a face's size on the face with "
+    text = ["Every shape is rebuilt where it is (identity), with a bump of 2.5 % of a face's size on the face with "
             "most edges and on the middle face of the list, the faces around it adapting, and warped as a whole by "
-            "2 %.",)
+            "2 %."]
     if not data.is_dir():
-        text += (_NO_FILES,)
+        text.append(_NO_FILES)
     return page.write(folder, "topology", "What keeps its topology", [Section("Results", text, tables=_tables(rows))],
                       {"rows": [asdict(row) for row in rows]})
 
@@ -205,15 +205,16 @@ def _tables(rows: list[Row | Refused]) -> list[Table]:
 
 
 def _summary(rows: list[Row | Refused]) -> list[tuple[str, ...]]:
-    lines = []
+    lines: list[tuple[str, ...]] = []
     for mode in dict.fromkeys(row.mode for row in rows):
         of_mode = [row for row in rows if row.mode == mode]
         done = [row for row in of_mode if isinstance(row, Row)]
-        both = [row for row in done if None not in row.boolean_check]
+        both = [(before, after) for before, after in (row.boolean_check for row in done)
+                if before is not None and after is not None]
         lines.append((mode, str(len(of_mode)), str(sum(row.kept for row in done)),
                       str(sum(row.excess_gap <= 1e-4 for row in done)),
                       str(sum(row.tolerance[1] <= row.tolerance_line for row in done)),
-                      f"{sum(row.boolean_check[1] <= row.boolean_check[0] for row in both)} of {len(both)} finished",
+                      f"{sum(after <= before for before, after in both)} of {len(both)} finished",
                       str(sum(row.step for row in done)), str(sum(not row.problems for row in done))))
     return lines
 

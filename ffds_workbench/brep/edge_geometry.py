@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -40,7 +41,7 @@ class EdgeGeometry:
                                   if edge not in self._uses or self._stays(edge) for vertex, _ in ends}
 
     def _curves(self, edge: int) -> EdgeCurves:
-        return self._brep.shapes[self._instances.edges[edge].shape].geometry
+        return cast(EdgeCurves, self._brep.shapes[self._instances.edges[edge].shape].geometry)
 
     def _traces(self, edge: int) -> list[Trace]:
         return [Trace(self._faces[face].surface, pcurve) for face, used in self._uses[edge] for pcurve in used.pcurves]
@@ -96,7 +97,8 @@ class EdgeGeometry:
             starts = [vertex for vertex, orientation in self._instances.edge_ends[edge] if orientation == "+"]
             if max(gaps, default=0.0) <= _OCCT_PRECISION or not starts:
                 continue
-            start = self._point(starts[0]) if vertices[starts[0]].point is None else vertices[starts[0]].point
+            moved = vertices[starts[0]].point
+            start = self._point(starts[0]) if moved is None else moved
             later = self._later(edge, curve, gaps, start)
             if later is None:
                 continue
@@ -125,7 +127,8 @@ class EdgeGeometry:
         """Where a vertex of the workpiece is, in world coordinates."""
         instance = self._instances.vertices[vertex]
         matrix = self._locations.matrix(instance.place)
-        return matrix[:3, :3] @ np.array(self._brep.shapes[instance.shape].geometry.point) + matrix[:3, 3]
+        point = cast(VertexPoint, self._brep.shapes[instance.shape].geometry).point
+        return matrix[:3, :3] @ np.array(point) + matrix[:3, 3]
 
     def faces(self) -> dict[int, NewFace]:
         """The displaced faces, with the pcurves that start late."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -86,6 +86,10 @@ class Trace:
         turns = (float(self.uv(np.array([fraction]))[0, axis]) - low) / (high - low)
         return abs(turns - round(turns)) < _SAME_BREAK
 
+    def _coordinate(self, axis: int, fraction: Array) -> Array:
+        """u (axis 0) or v on the face at fractions of the edge's range: (n,)."""
+        return self.uv(fraction)[:, axis]
+
     def uv(self, fraction: Array) -> Array:
         """Parameters on the face at fractions of the edge's range: (n, 2)."""
         pcurve = self.pcurve
@@ -103,7 +107,7 @@ class Trace:
             levels = knots[DEGREE + 1 : -DEGREE - 1]
             levels = levels if self.on_seam else _repeated(levels)
             for level in np.unique(levels):
-                passed = crossings(lambda x, axis=axis: self.uv(x)[:, axis], 0.0, 1.0, np.array([level]))
+                passed = crossings(partial(self._coordinate, axis), 0.0, 1.0, np.array([level]))
                 found.append(np.repeat(passed, np.count_nonzero(levels == level)))
         return np.concatenate(found)
 
@@ -153,7 +157,7 @@ def edge_curve(traces: Sequence[Trace], first: float, last: float, closed: bool,
 
     def mean(t: Array) -> Array:
         fraction = np.minimum(np.maximum((t - first) / (last - first), 0.0), 1.0)
-        return sum(trace.at(fraction) for trace in traces) / len(traces)
+        return np.asarray(np.mean([trace.at(fraction) for trace in traces], axis=0))
 
     breaks = first + (last - first) * np.concatenate([trace.breaks() for trace in traces])
     breaks = without_false_kinks(mean, breaks, last - first, _KINKED_SLOPE)

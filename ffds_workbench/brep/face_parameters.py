@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import Part
@@ -93,9 +94,10 @@ def parameter_box(face: Part.Face, polylines: tuple[Array, ...], curved: bool) -
                 a, b = 0.5 * (a + b) - 0.5 * (end - start), 0.5 * (a + b) + 0.5 * (end - start)
         sides += [float(a), float(b)]
         closed.append(full)
-    box = ParameterBox(*sides)
-    smooth = [closed[axis] and _smooth_seam(surface, box, axis) for axis in (0, 1)]
-    return ParameterBox(*sides, *smooth)
+    u0, u1, v0, v1 = sides
+    box = ParameterBox(u0, u1, v0, v1)
+    smooth_u, smooth_v = (closed[axis] and _smooth_seam(surface, box, axis) for axis in (0, 1))
+    return replace(box, closed_u=smooth_u, closed_v=smooth_v)
 
 
 def _natural_bounds(surface: Part.GeometrySurface, v_inside: float) -> Array:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import Part
 
+from ..errors import InputError
 from ..registration.arrays import Array
 from ..scan.sensor import Scene, SensorSettings, SimulatedScan, Truth, make_truth, simulate
 from ..scan.sensor.target import Displace
@@ -58,13 +59,21 @@ def edge_points(shape: Part.Shape, count: int = EDGE_SAMPLES) -> Array:
         if edge.Degenerated:
             lines.append([tuple(edge.Vertexes[0].Point)] * count)
         else:
-            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, count)])
+            first, last = edge.ParameterRange
+            lines.append([tuple(edge.valueAt(t)) for t in np.linspace(first, last, count)])
     return np.array(lines).reshape(-1, count, 3)
 
 
 def surface_samples(shape: Part.Shape) -> tuple[Array, Array]:
-    """Points (n, 3) in mm on the triangles of a shape, as many on each as it is large, and unit normals (n, 3)."""
+    """Points (n, 3) in mm on the triangles of a shape, as many on each as it is large, and unit normals (n, 3).
+
+    Raises
+    ------
+    InputError : no face has triangles
+    """
     vertices, triangles = shape.copy().tessellate(_SAG * shape.BoundBox.DiagonalLength)  # the shape keeps no mesh
+    if not triangles:
+        raise InputError("The faces of the model cannot be meshed, as where they have no bounds: repair the model.")
     a, b, c = np.array([tuple(vertex) for vertex in vertices])[np.array(triangles)].transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     areas = np.linalg.norm(normals, axis=1)

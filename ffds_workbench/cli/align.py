@@ -15,7 +15,8 @@ def add(commands: argparse._SubParsersAction) -> None:
     command = commands.add_parser("align", help="bring the scan onto the model by a rigid motion")
     command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
-                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 or .stl; several of one part are fused")
+                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 .stl .las .laz or .obj; several of one part are "
+                              "fused")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm",
                          help="unit of the scan (default: mm; one that is off is recognised)")

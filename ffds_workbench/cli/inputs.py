@@ -23,7 +23,8 @@ def add_inputs(command: argparse.ArgumentParser) -> None:
     """The arguments of a model and a scan."""
     command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
-                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 or .stl; several of one part are fused")
+                         help=".ply .pcd .xyz .asc .txt .csv .pts .e57 .stl .las .laz or .obj; several of one part are "
+                              "fused")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
 

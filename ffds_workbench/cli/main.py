@@ -17,7 +17,7 @@ from typing import NoReturn, TextIO
 from .. import RESOURCES, __version__
 from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
-from . import align, benchmark, seams, sensor, simulate, weld
+from . import align, benchmark, prepare, seams, sensor, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .terminal import ProgressLine, quiet_libraries
 
@@ -90,6 +90,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     _add_register(commands)
     _add_deviation(commands)
+    prepare.add(commands)
     align.add(commands)
     simulate.add(commands)
     sensor.add(commands)

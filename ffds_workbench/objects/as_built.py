@@ -131,7 +131,7 @@ def apply_request(obj: Any, request: RegistrationRequest) -> None:
     obj.Freeze = [(obj.Source, request.freeze)] if request.freeze else []
     obj.Method, obj.Isometry, obj.SourcePoints = request.method, request.isometry, request.source_points
     obj.Stiffness, obj.Gate = request.stiffness, request.gate or 0.0
-    obj.ControlPointsU, obj.ControlPointsV = (0, 0) if request.lattice == "auto" else request.lattice
+    obj.ControlPointsU, obj.ControlPointsV = request.counts or (0, 0)
 
 
 def _with_faces_found_again(obj: Any, job: Job) -> Job:

@@ -44,8 +44,14 @@ def _line(face: Part.Face) -> str:
     return f"{type(face.Surface).__name__} {centre.x:.9g} {centre.y:.9g} {centre.z:.9g} {face.Area:.9g}"
 
 
+def _parsed(signature: str) -> tuple[str, np.ndarray]:
+    """The kind that a signature names, and its numbers (4,)."""
+    kind, *numbers = signature.split()
+    return kind, np.array(numbers, dtype=float)
+
+
 def _is_same(first: str, second: str, shape: Part.Shape) -> bool:
-    (kind, *a), (other, *b) = first.split(), second.split()
-    a, b = np.array(a, dtype=float), np.array(b, dtype=float)
+    kind, a = _parsed(first)
+    other, b = _parsed(second)
     size = shape.BoundBox.DiagonalLength
     return kind == other and np.linalg.norm(a[:3] - b[:3]) < _SAME_PLACE * size and abs(a[3] - b[3]) < _SAME_AREA * a[3]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from typing import Any
 
 import FreeCAD
 
@@ -22,7 +23,7 @@ def dress_with(module: str) -> None:
 class _Opened:
     """Watches documents coming to the front; FreeCAD tells nobody in Python that one was opened."""
 
-    def slotActivateDocument(self, document: object) -> None:
+    def slotActivateDocument(self, document: Any) -> None:
         """A document comes to the front, a new one as well: dress its objects that have no view yet."""
         for item in document.Objects:
             proxy = getattr(item, "Proxy", None)

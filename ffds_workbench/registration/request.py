@@ -67,6 +67,11 @@ class RegistrationRequest:
     align: str = "none"
 
     @property
+    def counts(self) -> tuple[int, int] | None:
+        """(N_i, N_j) control points per face, None where the method is to find them."""
+        return None if isinstance(self.lattice, str) else self.lattice
+
+    @property
     def together(self) -> bool:
         """Whether all faces are registered in one solve, and not each by itself."""
         return self.faces is None and self.method == "robust"

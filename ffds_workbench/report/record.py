@@ -23,7 +23,7 @@ _DIGITS = 5
 
 def scan_record(scan: PointCloud, noise: float | None, sensor: SensorProfile | None = None) -> Record:
     """The report's ``scan`` block; ``sensor`` is the profile that the bands rest on, where it is not white noise."""
-    record = {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit}
+    record: Record = {"points": len(scan.points), "dropped": scan.dropped, "noise": noise, "unit": scan.unit}
     return record if sensor is None else record | {"sensor": asdict(sensor)}
 
 
@@ -51,12 +51,12 @@ def face_records(names: Sequence[str], moved: Collection[str], registrations: It
     for name in names:
         entry = registered.get(name)
         first, second = deviation.get(name, (None, None))
-        joint = isinstance(entry, JointFace) and name in moved
-        flag = entry.flag if joint else "nominal" if name not in moved else "observed" if entry else "carried"
+        joint = entry if isinstance(entry, JointFace) and name in moved else None
+        flag = joint.flag if joint else "nominal" if name not in moved else "observed" if entry else "carried"
         records.append({
             "name": name, "lattice": list(entry.lattice) if entry else None, "points": entry.points if entry else 0,
             "coverage": entry.coverage if entry else 0.0, "flag": flag,
-            "band": entry.band if joint and np.isfinite(entry.band) else None,
+            "band": joint.band if joint and np.isfinite(joint.band) else None,
             "deviation_before": figures(first.deviations) if first else None,
             "deviation_after": figures(second.deviations) if second else None})
     return records

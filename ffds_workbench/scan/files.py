@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .cloud import FARTHEST, PointCloud
-from .formats import e57, pcd, ply, stl, text
+from .formats import e57, foreign, pcd, ply, stl, text
 from .normals import fused, unit_normals
 from .units import MILLIMETRES
 
 _READERS: dict[str, Callable[[Path], NDArray[np.float64]]] = {
     ".ply": ply.read, ".pcd": pcd.read, ".stl": stl.read, ".e57": e57.read,
+    ".las": foreign.las, ".laz": foreign.las, ".obj": foreign.obj,
     ".xyz": text.read, ".asc": text.read, ".txt": text.read, ".csv": text.read, ".pts": text.read,
 }
 FORMATS = tuple(_READERS)

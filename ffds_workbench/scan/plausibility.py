@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError, RefusedError
-from ..registration.rigid.unit_mismatch import Surface, box_of, unit_mismatch
+from ..registration.rigid.scan_unit import Surface, box_of, unit_mismatch
 from .cloud import PointCloud
 from .units import MILLIMETRES, NAMES
 

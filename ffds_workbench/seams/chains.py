@@ -226,12 +226,12 @@ def _turned(weldment: Weldment, seam: Seam, start: Array) -> Seam:
     along = np.linspace(0.0, 1.0, _START_SAMPLES + 1)
     distances = np.array([np.linalg.norm(_points(weldment, stretch, along) - start, axis=1)
                           for stretch in seam.stretches])
-    number, nearest = np.unravel_index(distances.argmin(), distances.shape)
+    number, nearest = (int(index) for index in np.unravel_index(distances.argmin(), distances.shape))
     cut = seam.stretches[number]
     low, high = along[max(nearest - 1, 0)], along[min(nearest + 1, _START_SAMPLES)]
     for _ in range(6):  # each round divides the interval by 50
         inner = np.linspace(low, high, 101)
-        best = np.linalg.norm(_points(weldment, cut, inner) - start, axis=1).argmin()
+        best = int(np.linalg.norm(_points(weldment, cut, inner) - start, axis=1).argmin())
         low, high = inner[max(best - 1, 0)], inner[min(best + 1, 100)]
     at = float(cut.fractions(np.array([0.5 * (low + high)]))[0])
     around = seam.stretches[number + 1 :] + seam.stretches[:number]

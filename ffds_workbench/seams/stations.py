@@ -80,7 +80,8 @@ def stations_at(weldment: Weldment, seam: Seam, places: Places, settings: SeamSe
         forwards = 1.0 if stretch.end > stretch.start else -1.0
         rows.append([here.positions, forwards * here.tangents, here.n1, here.n2, here.curvature, opening,
                      signed_gap(weldment, stretch.other, here.positions)])
-    positions, tangents, n1, n2, curvature, opening, gap = map(np.concatenate, zip(*rows, strict=True))
+    columns: list[Array] = [np.concatenate(column) for column in zip(*rows, strict=True)]
+    positions, tangents, n1, n2, curvature, opening, gap = columns
     try:
         bisector = frames.torch_frames(tangents, n1, n2)
     except RefusedError as error:

@@ -139,9 +139,10 @@ class Weldment:
 
     def _normal(self, face: int, u: float, v: float, u_instead: float, v_instead: float) -> tuple[float, float, float]:
         try:
-            return tuple(self.faces[face].normalAt(u, v))
+            x, y, z = self.faces[face].normalAt(u, v)
         except (RuntimeError, Part.OCCError, FreeCAD.Base.FreeCADError):
-            return tuple(self.faces[face].normalAt(u_instead, v_instead))
+            x, y, z = self.faces[face].normalAt(u_instead, v_instead)
+        return x, y, z
 
     def nearest(self, faces: Iterable[int], points: Array) -> NearestPoints:
         """Nearest points of the given (trimmed) faces to points (n, 3)."""

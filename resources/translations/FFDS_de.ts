@@ -1118,8 +1118,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>: {0}</translation>
     </message>
     <message>
-      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them.</source>
-      <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten.</translation>
+      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them, or take as nominal model a STEP file that FreeCAD has exported of it.</source>
+      <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten, oder nehmen Sie als Sollteil eine STEP-Datei, die FreeCAD davon exportiert hat.</translation>
     </message>
     <message>
       <source>A STEP file would {0}: write .brep or .FCStd, which keep them.</source>
@@ -1128,6 +1128,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>A URScript has no numbered or named {0}s: give X,Y,Z,A,B,C instead of {1}.</source>
       <translation>Ein URScript kennt keine nummerierten oder benannten Werkzeuge und Basen ({0}): Geben Sie X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>A box is X0,Y0,Z0,X1,Y1,Z1, the lower corner first: each of X0,Y0,Z0 must be below its X1,Y1,Z1.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>A face of {0} is named, but {1} is made from {2}: choose faces of one part.</source>
@@ -1152,6 +1156,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>A view needs a direction from the part to the camera: 0,0,0 is none.</source>
       <translation>Eine Ansicht braucht eine Richtung vom Teil zur Kamera: 0,0,0 ist keine.</translation>
+    </message>
+    <message>
+      <source>A view point is for normals: ask for them too (--normals).</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
@@ -1198,6 +1206,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Scan und Modell werden verglichen</translation>
     </message>
     <message>
+      <source>Cropping to a model needs both, the model and a distance from it.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Cropping to the model</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Edge{0} and its faces run at different parameters: repair the shape first.</source>
       <translation>Edge{0} und ihre Flächen haben verschiedene Parameter: Reparieren Sie zuerst die Form.</translation>
     </message>
@@ -1216,6 +1232,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Edge{0} lies on no other part within {1} mm: use a larger tolerance or name it without one.</source>
       <translation>Edge{0} liegt auf höchstens {1} mm an keinem anderen Teil: Nehmen Sie eine größere Toleranz, oder nennen Sie die Kante ohne Toleranz.</translation>
+    </message>
+    <message>
+      <source>Estimating normals</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Every face is frozen: leave at least one face free to move.</source>
@@ -1256,6 +1276,22 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>KUKA controllers number tools and bases: give a number or X,Y,Z,A,B,C instead of '{0}'.</source>
       <translation>KUKA-Steuerungen nummerieren Werkzeuge und Basen: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{0}“ an.</translation>
+    </message>
+    <message>
+      <source>Looking for clutter</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Looking for outliers</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Looking for the table</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>Matching the scans</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Measuring the deviation</source>
@@ -1302,6 +1338,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Es wurde keine Naht genannt: Nennen Sie Kanten, oder eine Toleranz, mit der die Stöße von selbst gefunden werden.</translation>
     </message>
     <message>
+      <source>No step was asked for: name one, for instance --remove-plane, --remove-clutter or --spacing.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>Noise, correlation, holes, edge band and pose error of a scan cannot be negative.</source>
       <translation>Rauschen, Korrelation, Löcher, Randstreifen und Lagefehler eines Scans können nicht negativ sein.</translation>
     </message>
@@ -1320,6 +1360,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Outliers beyond {0} mm make no sense: give a distance above 0.</source>
       <translation>Ausreißer jenseits von {0} mm ergeben keinen Sinn: Geben Sie einen Abstand über 0 an.</translation>
+    </message>
+    <message>
+      <source>Preparing has no such setting: {0}.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Reading the model</source>
@@ -1392,6 +1436,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The document could not be written: {0}.</source>
       <translation>Das Dokument ließ sich nicht schreiben: {0}.</translation>
+    </message>
+    <message>
+      <source>The faces of the model cannot be meshed, as where they have no bounds: repair the model.</source>
+      <translation>Die Flächen des Modells lassen sich nicht vernetzen, etwa weil sie keine Grenzen haben: Reparieren Sie das Modell.</translation>
     </message>
     <message>
       <source>The isometry '{0}' is unknown: use one of {1}.</source>
@@ -1494,6 +1542,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Reihenfolge der Flächen, Kanten oder Ecken änderte sich.</translation>
     </message>
     <message>
+      <source>The origin of the scan's coordinates lies within the scan, so that no sensor stood there: say where it stood (--view X,Y,Z).</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
       <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) oder .FCStd.</translation>
     </message>
@@ -1552,6 +1604,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The points on the {0} lie on a line: pick three that span a triangle.</source>
       <translation>Die Punkte ({0}) liegen auf einer Geraden: Wählen Sie drei, die ein Dreieck bilden.</translation>
+    </message>
+    <message>
+      <source>The poses {0} are no JSON.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The poses {0} are no list: write one (4, 4) matrix for each scan, in their order.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The poses {0} cannot be read: {1}.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>The program has no poses with X, Y and Z.</source>
@@ -1644,6 +1708,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan {0} does not exist.</source>
       <translation>Den Scan {0} gibt es nicht.</translation>
+    </message>
+    <message>
+      <source>The scan {0} does not overlap with {1} or what overlaps with it: its pose is wrong, or the scans are of different sides; a scan between them would join them.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>The scan {0} has no vertices: nothing can be registered to it.</source>
@@ -1822,12 +1890,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Anfang einer Naht muss ein Punkt sein: drei Zahlen in mm.</translation>
     </message>
     <message>
-      <source>The start of the alignment is no pose: give a (4, 4) matrix of a rotation and a shift in mm.</source>
-      <translation>Der Anfang der Ausrichtung ist keine Lage: Geben Sie eine (4, 4)-Matrix aus einer Drehung und einer Verschiebung in mm an.</translation>
-    </message>
-    <message>
       <source>The start takes three or more points on the scan and as many on the part, in the same order.</source>
       <translation>Für den Anfang braucht es mindestens drei Punkte auf dem Scan und ebenso viele auf dem Teil, in derselben Reihenfolge.</translation>
+    </message>
+    <message>
+      <source>The step '{0}' would leave nothing of the scan: leave it out.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>The stiffness {0} makes no sense: 1 is the default, use {1} to {2}.</source>
@@ -1870,6 +1938,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Bericht ({0}) hat keine Flächen: Nennen Sie die Datei, die register mit --report geschrieben hat.</translation>
     </message>
     <message>
+      <source>The {0} is a length above 0 mm, not {1}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>The {0} must lie within ±80°, not {1}°.</source>
       <translation>Der Winkel „{0}“ muss innerhalb von ±80° liegen, nicht bei {1}°.</translation>
     </message>
@@ -1884,6 +1956,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The {0} {1} leads through the part: shorten it, lean the torch or weld from another start.</source>
       <translation>Der Weg „{0}“ {1} führt durch das Teil: Kürzen Sie ihn, neigen Sie den Brenner, oder schweißen Sie von einem anderen Anfang aus.</translation>
+    </message>
+    <message>
+      <source>There are {0} poses for {1} scans: give one for each, in their order.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>There is no part: select one, or choose one in the properties.</source>
@@ -1968,6 +2044,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>only {0} % of the scan lies on the part and only {1} % of the part is covered at the best pose found</source>
       <translation>in der besten gefundenen Lage liegen nur {0} % des Scans auf dem Teil, und nur {1} % des Teils sind bedeckt</translation>
+    </message>
+    <message>
+      <source>open3d is not installed, and {0} needs it: install it (Debian: python3-open3d), or leave this step out.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>part</source>
@@ -2092,6 +2172,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} is no point cloud: select a Points object as the scan.</source>
       <translation>{0} ist keine Punktwolke: Wählen Sie ein Punkte-Objekt als Scan.</translation>
+    </message>
+    <message>
+      <source>{0} is no pose: give a (4, 4) matrix of a rotation and a shift in mm.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>{0} is not the last feature of {1}: select the body as it is now.</source>

@@ -11,7 +11,7 @@ from ffds_workbench import RESOURCES, api
 from ffds_workbench.brep.model_files import model_file, step_colours
 from ffds_workbench.brep.simulated_scan import surface_samples
 from ffds_workbench.errors import FfdsError, InputError
-from ffds_workbench.registration.rigid.unit_mismatch import FACTORS, unit_mismatch
+from ffds_workbench.registration.rigid.scan_unit import FACTORS, unit_mismatch
 
 BRACKET = RESOURCES / "examples" / "bracket.step"
 
@@ -46,6 +46,12 @@ def test_places_tell_it_for_a_block_away_from_the_origin():
     for factor in FACTORS:
         assert unit_mismatch(scan / factor, low, high, lambda: (points, normals)) == factor
     assert unit_mismatch(scan, low, high, lambda: (points, normals)) is None
+
+
+def test_a_face_without_bounds_is_bad_input():
+    """As a damaged IGES file holds it: nothing of it can be meshed."""
+    with pytest.raises(InputError, match="no bounds"):
+        surface_samples(Part.Plane().toShape())
 
 
 def test_parts_of_the_surface_and_tables_pass(bracket):

@@ -39,6 +39,10 @@ worker.main()
     assert [path.name for path in (tmp_path / "failures").iterdir()] == ["scan-.xyz-2.xyz"]
 
 
+def test_there_are_models_to_damage():
+    assert all(kinds.contents(kind)[0] for kind in kinds.by_command())
+
+
 def test_the_scan_lies_on_the_plate():
     points = seeds.measured()[:, :3]
     bounds = seeds.plate().BoundBox

@@ -69,6 +69,16 @@ def test_distances_are_those_of_closed_forms():
     np.testing.assert_allclose(off, 0.3, atol=EXACT)
 
 
+def test_distances_are_found_near_the_poles_of_a_sphere():
+    """A periodic B-spline of R = 10, where one Newton step from a pole would turn round the axis without end."""
+    sphere = Part.makeSphere(10).toNurbs()
+    u = np.linspace(0.1, 6.1, 40)
+    points = np.tile([0.05, 0.0, 10.3], (40, 1))
+    uv = np.column_stack([u, np.full(40, sphere.Faces[0].ParameterRange[3])])
+    off = judge.distances(sphere, WorldTruth(points, points, np.zeros(40, int), uv, np.ones(40, bool), None, None))
+    np.testing.assert_allclose(off, np.hypot(0.05, 10.3) - 10, atol=EXACT)
+
+
 def test_other_numbers_are_found():
     box = Part.makeBox(10, 20, 30)
     assert numbers.changes(box, box.copy()) == []

@@ -60,6 +60,14 @@ def test_a_file_that_takes_too_much_memory(tmp_path, monkeypatch):
     assert "damaged" in refused(tmp_path / "m.brep")
 
 
+def test_a_reading_that_stands_still(monkeypatch):
+    """It gets no processor time any more; on a busy machine it would get some."""
+    monkeypatch.setattr(reading, "_CHILD", "import signal\nsignal.pause()")
+    monkeypatch.setattr(reading, "_STILL", 0.2)
+    monkeypatch.setattr(reading, "_LOOK", 0.1)
+    assert "damaged" in refused(BRACKET)
+
+
 def test_nothing_is_left_behind(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     folder = tmp_path / "models"

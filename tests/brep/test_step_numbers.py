@@ -5,6 +5,7 @@ FreeCAD's own reader is the truth; every shape is warped as a whole, so that all
 """
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,11 @@ from FreeCAD import Vector
 
 from ffds_workbench.benchmark.simulated import topology_shapes
 from ffds_workbench.brep import topology, workpiece
-from ffds_workbench.brep.model_files import model_file
+from ffds_workbench.brep.model_files import model_file, step_file
 from ffds_workbench.brep.model_files.model_file import Model
+from ffds_workbench.brep.model_files.step_free_shapes import with_free_shapes
 from ffds_workbench.brep.rebuild import rebuild
+from ffds_workbench.compat import write_step
 from ffds_workbench.errors import RefusedError
 
 WORLD = ("so_WaveShare_Mounting_Plate_SO101.step", "occ_bug24595_281390.stp", "occ_bug32745_pmi1.stp",
@@ -75,10 +78,45 @@ def test_numbers_of_real_parts_are_kept(shared_data, name, tmp_path):
     _same_numbers(warped, _written(warped, tmp_path / "part.step"))
 
 
+def _prism() -> Part.Shape:
+    return Part.Face(Part.makePolygon([(0, 0, 0), (30, 0, 0), (20, 20, 0), (0, 0, 0)])).extrude(Vector(0, 0, 9))
+
+
+def test_a_list_that_the_writer_breaks_is_found(tmp_path):
+    """OCCT breaks lines where they are full, before the context of a long list of bodies for one."""
+    shape = _with_free_shapes()
+    shape.exportStep(str(tmp_path / "part.step"))
+    text = (tmp_path / "part.step").read_text()
+    listed = re.search(r"SHAPE_REPRESENTATION\('',\([#\d,]+\),", text)[0]
+    broken = text.replace(listed, listed.replace("('',", "('',\n    ") + "\n  ")
+    assert with_free_shapes(text, shape) != text
+    assert re.sub(r"\s", "", with_free_shapes(broken, shape)) == re.sub(r"\s", "", with_free_shapes(text, shape))
+
+
+def test_readers_put_a_loop_in_order(tmp_path):
+    """However a STEP file lists the edges of a loop, they follow each other when it is read."""
+    Part.makeBox(40, 30, 20).exportStep(str(tmp_path / "box.step"))
+    text = (tmp_path / "box.step").read_text()
+    mixed, count = re.subn(r"EDGE_LOOP\('',\((#\d+),(#\d+),(#\d+),(#\d+)\)\)", r"EDGE_LOOP('',(\1,\3,\2,\4))", text)
+    (tmp_path / "box.step").write_text(mixed)
+    read = topology.read(Part.read(str(tmp_path / "box.step")))
+    assert count == 6 == len(read.face_wires)
+    for (edges,) in read.face_wires:
+        for one, other in zip(edges, edges[1:] + edges[:1], strict=True):
+            assert set(read.edge_vertices[one]) & set(read.edge_vertices[other])
+
+
+def test_what_is_refused_is_written_but_once(tmp_path, monkeypatch):
+    written = []
+    monkeypatch.setattr(step_file, "write_step", lambda shape, path: (written.append(path), write_step(shape, path)))
+    with pytest.raises(RefusedError):
+        _written(_prism(), tmp_path / "prism.step")
+    assert len(written) == 1
+
+
 def test_what_no_step_file_can_number_is_refused(tmp_path):
     """Edges of the first face of a prism go round it as 1, 4, 2, 3; a loop in a STEP file goes round in order."""
-    triangle = Part.Face(Part.makePolygon([(0, 0, 0), (30, 0, 0), (20, 20, 0), (0, 0, 0)]))
-    prism = _warped(triangle.extrude(Vector(0, 0, 9)))
+    prism = _warped(_prism())
     with pytest.raises(RefusedError, match=r"other numbers to Face1.* and Edge2.*\.brep or \.FCStd, which keep them"):
         _written(prism, tmp_path / "prism.step")
     with pytest.raises(RefusedError, match=r"go round Face1 in another order"):

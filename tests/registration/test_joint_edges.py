@@ -92,3 +92,18 @@ def test_poles_do_not_pull(shape):
     off = np.concatenate([np.linalg.norm(face.displacement(face.uv), axis=1) for face in result.faces])
     # σ √(dof/n): some 300 degrees of freedom and 30,000 points leave 0.008 mm rms, priors some less; three times that.
     assert off.mean() < 3 * NOISE * np.sqrt(300 / 30000)
+
+
+def test_a_narrow_wall_that_is_seen_is_no_end_of_the_scan():
+    """The points of a wall of 1 mm lie within four times the noise beside the skins' edges: no border is drawn through
+    the outermost of them."""
+    size = np.array([40.0, 25.0, 1.0])
+    part = joint_part(read(Part.makeBox(*size)))
+    scan = scan_of(Part.makeBox(*size), 30000)
+    result = register_joint(part, scan)
+    for face, geometry in zip(result.faces, part.faces, strict=True):
+        place = geometry.surface(face.uv)
+        axis = int(np.argmin(np.ptp(place, axis=0)))
+        outwards = np.sign(place[:, axis].mean() - size[axis] / 2) * face.displacement(face.uv)[:, axis].mean()
+        # Half of a wall's points lie within its margin: the mean of so many is sure to σ / √n; four times that.
+        assert abs(outwards) < 4 * NOISE / np.sqrt(max(face.points, 1)), face.name

@@ -166,8 +166,9 @@ def test_points_at_random_put_edges_where_they_are():
     still = np.zeros((problem.lattices.count, 3))
     near = find_near_edges(problem.scan, problem.couplings.edges, problem.sides, still, None)
     noise = problem.lengths.noise
+    held = np.where(problem.cells.nominal.position[:, :, 2].ravel() > 1.999, 10.0, 0.0)
     found = find_borders(near, problem.couplings.edges, problem.sides, still, noise,
-                         np.full(len(problem.part.faces), noise), None)
+                         np.full(len(problem.part.faces), noise), held, None)
     # The outermost of 10 points per mm² in strips of 40/32 mm or more: exponential, its deviation 0.08 mm or less.
     assert len(found.along) > 100
     assert abs(found.along.mean()) < 3 * 0.08 / np.sqrt(len(found.along))

@@ -14,8 +14,7 @@ from ffds_workbench.errors import RefusedError
 from ffds_workbench.registration.joint import JointSettings, register_joint
 from ffds_workbench.registration.joint.outcome import refuse_unsound, torn_faces
 from ffds_workbench.registration.joint.problem import make_problem
-from ffds_workbench.registration.joint.solve import gauss_newton_step
-from ffds_workbench.registration.joint.state import start
+from ffds_workbench.registration.joint.iteration import gauss_newton_step, start
 
 SIZE, THICKNESS = (40.0, 30.0), 3.0
 

@@ -135,3 +135,20 @@ def test_a_pipe_stays_where_it_was_about_its_axis():
             moved = field(np.column_stack([angle, height]))
             # It turned by tenths of a millimetre; what is left is the mean over the ends.
             assert abs((moved[:, 1] * np.cos(angle) - moved[:, 0] * np.sin(angle)).mean()) < 0.01
+
+
+def rounded_plate():
+    plate = Part.makeBox(40, 30, 3)
+    return plate.makeFillet(0.5, plate.Edges)
+
+
+@pytest.mark.parametrize("shape", [rounded_plate, lambda: Part.makeCylinder(3.5, 200).cut(Part.makeCylinder(0.5, 200))],
+                         ids=["rounds", "tight bend"])
+def test_rounds_are_no_skins_and_bends_are(shape):
+    """Half a thickness inside the round of an edge there is no surface that could keep its lengths; inside the outer
+    side of a bend, however tight, there is."""
+    shape = shape()
+    scan = np.random.default_rng(0).uniform(0, 40, (2000, 3))
+    sheets = make_problem(joint_part(read(shape)), scan, JointSettings(), {}).couplings.pairs
+    assert sheets.solid_thickness[0] == pytest.approx(3, rel=0.01)
+    assert set(np.flatnonzero(sheets.of_face)) == set(np.argsort([-face.Area for face in shape.Faces])[:2])

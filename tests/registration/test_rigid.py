@@ -25,7 +25,7 @@ from ffds_workbench.registration.rigid.deformation.deformed_pose import surface_
 from ffds_workbench.registration.rigid.deformation.displacement_field import DisplacementField, displacement_basis
 from ffds_workbench.registration.rigid.refine.scan_rims import ScanEnds, find_scan_ends, points_near_rims
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
-from ffds_workbench.registration.rigid.unit_guess import plausible_scales
+from ffds_workbench.registration.rigid.scan_unit import plausible_scales
 from ffds_workbench.registration.scan_sketch import find_table, sketch_of
 from ffds_workbench.scan.sensor import SensorSettings, View, simulate
 

@@ -177,8 +177,3 @@ def test_the_damaged_scans_beside_the_project(shared_data):
             assert len(files.read(path).points) > 1
         except InputError as error:
             assert "\n" not in str(error) and str(path) in str(error)
-
-
-def test_scans_are_read_without_open3d():
-    source = "".join(path.read_text("utf-8") for path in sorted((ROOT / "ffds_workbench" / "scan").rglob("*.py")))
-    assert "import open3d" not in source

@@ -143,7 +143,7 @@ BAD = {
     "missing.ply": (None, "does not exist"),
     "folder.ply": ("folder", "is a folder"),
     "empty.ply": (b"", "is empty"),
-    "unknown.las": (b"1 2 3", "unknown format"),
+    "unknown.dxf": (b"1 2 3", "unknown format"),
     "cut binary.ply": (ply(POINTS, "binary_little_endian")[:-30], "promises 40 points, 38 are there"),
     "cut text.ply": (ply(POINTS, "ascii")[:-20], "promises 40 points, 39 are there"),
     "short.ply": (ply(POINTS, "binary_big_endian", promised=99), "promises 99 points, 40 are there"),

@@ -32,7 +32,8 @@ _BENDS = 5
 def measure(kind: str, seeds: int, progress: Progress) -> dict[str, Any]:
     """Figures of each method over the scans of one kind of sheet; ``seeds`` scans for the robust method and for least
     squares, a fifth of them for the published one, which hardly varies."""
-    face, rows = sheet.nominal(), {name: [] for name in (*METHODS, LEAST_SQUARES)}
+    face = sheet.nominal()
+    rows: dict[str, list[Any]] = {name: [] for name in (*METHODS, LEAST_SQUARES)}
     for seed in range(seeds):
         progress(f"Sheet {kind}, scan {seed + 1} of {seeds}")
         scan = sheet.scan(kind, seed)

@@ -65,6 +65,8 @@ def _models() -> Mapping[str, list[bytes]]:
         for suffix, path in files.items():
             if suffix == ".iges":
                 shape.exportIges(str(path))
+            elif suffix == ".step":
+                shape.exportStep(str(path))  # which numbers it anew
             else:
                 model_file.write(Model(shape, "Plate"), path)
         return {suffix: [path.read_bytes()] for suffix, path in files.items()}

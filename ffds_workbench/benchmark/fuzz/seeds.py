@@ -131,11 +131,11 @@ def e57(points: Array, old: str = "", new: str = "") -> bytes:
             f'<cartesianZ type="ScaledInteger" minimum="{-half}" maximum="{half - 1}" scale="{scale}"/></prototype>'
             '</points><pose type="Structure"><rotation type="Structure"><w type="Float">0.6</w><x type="Float"/>'
             '<y type="Float"/><z type="Float">0.8</z></rotation></pose></vectorChild></data3D></e57Root>')
-    text = text.replace(old, new).encode() if old else text.encode()
-    pages = -(-(_E57_HEADER + len(section) + len(text)) // (_PAGE - _CHECKSUM))
-    header = struct.pack("<8s2I4Q", b"ASTM-E57", 1, 0, pages * _PAGE, _physical(_E57_HEADER + len(section)), len(text),
+    xml = (text.replace(old, new) if old else text).encode()
+    pages = -(-(_E57_HEADER + len(section) + len(xml)) // (_PAGE - _CHECKSUM))
+    header = struct.pack("<8s2I4Q", b"ASTM-E57", 1, 0, pages * _PAGE, _physical(_E57_HEADER + len(section)), len(xml),
                          _PAGE)
-    whole = (header + section + text).ljust(pages * (_PAGE - _CHECKSUM), b"\0")
+    whole = (header + section + xml).ljust(pages * (_PAGE - _CHECKSUM), b"\0")
     return b"".join(whole[start : start + _PAGE - _CHECKSUM] + b"\0" * _CHECKSUM
                     for start in range(0, len(whole), _PAGE - _CHECKSUM))
 

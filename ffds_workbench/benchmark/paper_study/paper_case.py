@@ -82,7 +82,8 @@ def true_distance(points: Array) -> Array:
         gap = np.column_stack([points[:, :2] - xy, points[:, 2] - z])
         a, b, c = 1 + gx**2, gx * gy, 1 + gy**2
         ra, rb = gap[:, 0] + gx * gap[:, 2], gap[:, 1] + gy * gap[:, 2]
-        step = np.column_stack([c * ra - b * rb, a * rb - b * ra]) / (a * c - b * b)[:, None]
+        determinant: Array = a * c - b * b
+        step = np.column_stack([c * ra - b * rb, a * rb - b * ra]) / determinant[:, None]
         xy += step
         if np.abs(step).max() < 1e-9:
             break

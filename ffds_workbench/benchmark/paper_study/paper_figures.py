@@ -57,7 +57,8 @@ def solve_times(case: PaperCase, progress: Progress, repeats: int = REPEATS) -> 
             "ffd_hsu_touched_s": partial(_solve_touched, volume, points, moves),
             "ffd_hsu_fast_s": partial(ffd.solve_volume, volume, source, moves),
         }
-        rows.append({"source_points": len(points), **median_seconds(jobs, repeats)})
+        row: Row = {"source_points": len(points)}
+        rows.append(row | median_seconds(jobs, repeats))
     return rows
 
 

@@ -57,8 +57,11 @@ def before_and_after(case: PaperCase, folder: Path, name: str) -> str:
         axes = _axes(drawing, 1, 2, k + 1, title)
         axes.scatter(*shown.T, s=1.6, color=style.CLOUD, linewidths=0, label="_")
         moved = k * result.displacement.control_points
-        points = deformed(result, source) if k else nominal().surface(source)
-        _surface(axes, _grid_of(partial(deformed, result) if k else nominal().surface), style.SHEET, 0.35)
+        shape: Callable[[Array], Array] = nominal().surface
+        if k:
+            shape = partial(deformed, result)
+        points = shape(source)
+        _surface(axes, _grid_of(shape), style.SHEET, 0.35)
         _net(axes, before + moved, style.COLOURS["ffds"])
         axes.scatter(*points.T, s=14, color=style.INK, depthshade=False, label="36 source points")
         axes.plot([], [], "o", color=style.CLOUD, markersize=3, label="T, the target cloud (part of it)")

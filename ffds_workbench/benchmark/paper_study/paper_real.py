@@ -34,6 +34,11 @@ _METHODS: dict[str, Callable[[FaceGeometry, Array], FaceRegistration]] = {
 }
 
 
+def _of_parameters(displacement: Callable[[Array], Array]) -> Callable[[Array, Array], Array]:
+    """A displacement of (u, v) as one of a face's (u, v) and points."""
+    return lambda uv, points: displacement(uv)
+
+
 def measure() -> dict[str, Any] | None:
     """Deviation of held-out scan points (every fifth) before and after; None where the data is absent.
 
@@ -57,7 +62,7 @@ def measure() -> dict[str, Any] | None:
         except RefusedError as error:
             result[name] = {"refused": str(error)}
             continue
-        moved = Scene([face], {0: lambda uv, _points, d=displacement: d(uv)})
+        moved = Scene([face], {0: _of_parameters(displacement)})
         result[name] = {"fitted": _figures(moved, scan[near & ~held]), "held_out": _figures(moved, scan[near & held])}
     return result
 

@@ -10,6 +10,7 @@ import json
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import Part
@@ -23,7 +24,7 @@ from . import warps
 from .parts import FAMILIES, FamilyPart
 
 WARPS = ("iso", "springback", "mix", "bumps", "twist", "bend")
-SCANS: dict[str, dict[str, float]] = {
+SCANS: dict[str, dict[str, Any]] = {
     "clean": {},
     "one-view": {},
     "one-view with normals": {},
@@ -88,7 +89,7 @@ def make_case(family: str, warp: str, seed: int, scan_name: str = "clean", ampli
     move = deformation(part, warp, amplitude, rng)
     directions = part.views[:1] if scan_name.startswith("one-view") else part.views
     directions = directions + rng.normal(0.0, 0.06, directions.shape)
-    settings = SensorSettings(spacing=0.35, views=tuple(View(tuple(direction)) for direction in directions),
+    settings = SensorSettings(spacing=0.35, views=tuple(View((x, y, z)) for x, y, z in directions),
                               seed=int(rng.integers(2**31)), **SCANS[scan_name])
     target, scan, truth = scanned(part, move, settings)
     normals = sensed_normals(scan, target, settings) if scan_name.endswith("with normals") else None

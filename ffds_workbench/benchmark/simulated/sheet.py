@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import LSQBivariateSpline
 from scipy.ndimage import gaussian_filter
 
@@ -147,7 +148,7 @@ def _correlated_noise(random: np.random.Generator, x: Array, y: Array) -> Array:
     return (field * NOISE / field.std())[(x / _PIXEL).astype(int), (y / _PIXEL).astype(int)]
 
 
-def _hidden(random: np.random.Generator, x: Array, y: Array) -> Array:
+def _hidden(random: np.random.Generator, x: Array, y: Array) -> NDArray[np.bool_]:
     """Whether points lie in the corner or the discs that the sensor does not see."""
     gx, gy = (a.ravel() for a in np.meshgrid(np.linspace(0, SIZE[0], 151), np.linspace(0, SIZE[1], 141)))
     hidden_grid, hidden = (gx > 60) & (gy < 5), (x > 60) & (y < 5)

@@ -3,7 +3,7 @@
 the true points and edges from it."""
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -86,8 +86,10 @@ def _from_face(face: Part.Face, points: Array, uv: Array) -> Array:
 
 
 def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
-    """Distances after Gauss-Newton steps from (u, v), inside the surface's bounds where it is not periodic."""
+    """Distances after Gauss-Newton steps from (u, v), inside the surface's bounds where it is not periodic; none is
+    longer than the surface, as near a pole they have no bound."""
     bounds = np.array(surface.bounds()).reshape(2, 2)
+    longest = np.ptp(bounds, axis=1)
     bounds[[surface.isUPeriodic(), surface.isVPeriodic()]] = -np.inf, np.inf
     nearest = np.full(len(points), np.inf)
     for _ in range(_STEPS):
@@ -103,7 +105,7 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
                                                                   (along_v, along_v), (along_u, away), (along_v, away)))
         determinant = np.maximum(e * g - f * f, 1e-12 * e * g + 1e-300)
         step = np.stack([g * p - f * q, e * q - f * p], axis=1) / determinant[:, None]
-        uv = np.clip(uv + step, bounds[:, 0], bounds[:, 1])
+        uv = np.clip(uv + np.clip(step, -longest, longest), bounds[:, 0], bounds[:, 1])
     return nearest
 
 
@@ -111,7 +113,8 @@ def _figures(shape: Part.Shape, truth: WorldTruth, off: Array) -> dict[str, Any]
     edges = []
     for edge, before, true in zip(shape.Edges, truth.edges_nominal, truth.edges, strict=True):
         if not edge.Degenerated and np.ptp(before, axis=0).max() > 0:
-            line = np.array([tuple(edge.valueAt(t)) for t in np.linspace(*edge.ParameterRange, _POLYLINE)])
+            first, last = edge.ParameterRange
+            line = np.array([tuple(edge.valueAt(t)) for t in np.linspace(first, last, _POLYLINE)])
             edges.append(to_polyline(true, line))
     return {"visible": figures(off[truth.visible]), "hidden": figures(off[~truth.visible]),
             "edges": figures(np.concatenate(edges)) if edges else None}
@@ -151,9 +154,8 @@ def _gap(shape: Part.Shape) -> float:
         for edge in face.Edges:
             found = None if edge.Degenerated else face.curveOnSurface(edge)
             if found is not None:
-                curve, first, last = found[:3]
-                pairs = zip(np.linspace(first, last, _ALONG), np.linspace(*edge.ParameterRange, _ALONG),
-                            strict=True)
+                (curve, *ends), (first, last) = found[:3], edge.ParameterRange
+                pairs = zip(np.linspace(ends[0], ends[1], _ALONG), np.linspace(first, last, _ALONG), strict=True)
                 largest = max([largest, *(_between(value, curve.value(s), edge.valueAt(t)) for s, t in pairs)])
     return largest
 
@@ -172,7 +174,7 @@ def _mesh(shape: Part.Shape) -> dict[str, Any]:
             "open": _open_sides(corner[np.array(triangles, dtype=int).reshape(-1, 3)])}
 
 
-def _open_sides(triangles: Sequence | NDArray) -> int:
+def _open_sides(triangles: NDArray[np.intp]) -> int:
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     sides = sides[sides[:, 0] != sides[:, 1]]
     return int((np.unique(sides, axis=0, return_counts=True)[1] % 2).sum()) if len(sides) else 0

@@ -157,7 +157,12 @@ def _process(step: str, folder: Path, limit: float) -> _ProcessEnd:
                                    env=os.environ | _THREADS | {"PYTHONPATH": str(ROOT)})
     _UNDER_WAY.add(process)
     late = threading.Event()
-    timer = threading.Timer(limit, lambda: (late.set(), process.kill()))
+
+    def stop() -> None:
+        late.set()
+        process.kill()
+
+    timer = threading.Timer(limit, stop)
     timer.start()
     _, status, used = os.wait4(process.pid, 0)
     timer.cancel()

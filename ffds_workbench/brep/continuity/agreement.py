@@ -9,7 +9,7 @@ correction smoothly into its own interior.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,7 +89,7 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
     for face in displacements:
         for edge in topology.face_edges[face]:
             finest[edge] = min(finest.get(edge, np.inf), spacing[face])
-    samples = join_samples(along_edge(workpiece, edge, lambda points, s=step: np.full(len(points), s))
+    samples = join_samples(along_edge(workpiece, edge, _even_spacing(step))
                            for edge, step in sorted(finest.items()))
     sides = {face: _side(workpiece, face, displacement, samples) for face, displacement in displacements.items()}
     agreed = _along_edges(samples, sides)
@@ -97,6 +97,11 @@ def agree(workpiece: Workpiece, displacements: Mapping[int, SplineSurface], spac
     sizes = [np.linalg.norm(side_lengths(workpiece.faces[face])) for face in sides]
     dispute = _spread_out(samples.points, _disagreement(sides, agreed), _FADE_SHARE * float(np.mean(sizes)))
     return Rim(samples, agreed, dispute, sides)
+
+
+def _even_spacing(step: float) -> Callable[[Array], Array]:
+    """The same spacing in mm at all points (n, 3)."""
+    return lambda points: np.full(len(points), step)
 
 
 def _disagreement(sides: Mapping[int, Side], agreed: Array) -> Array:

@@ -106,7 +106,7 @@ class Cutoff:
         pairs = cKDTree(points).sparse_distance_matrix(self._tree, _HORIZON * self.reach.max(), output_type="ndarray")
         reach = self.reach[pairs["j"]]
         shares = _shares(pairs["v"] ** 2, reach) * (self.lengths / self.reach)[pairs["j"]]
-        return np.bincount(pairs["i"], shares, minlength=len(points))
+        return np.asarray(np.bincount(pairs["i"], shares, minlength=len(points)), dtype=float)
 
     def __call__(self, points: Array) -> Array:
         """The factor at points: (m, 3) to (m,)."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...registration.arrays import Array
+from ...registration.arrays import Array, Index
 from ..topology import points_on_edge
 from ..workpiece import Workpiece, WorkpieceFace
 
@@ -38,7 +38,7 @@ class EdgeSamples:
         """(n,) whether a sample is an end of its edge."""
         return (self.fractions == 0.0) | (self.fractions == 1.0)
 
-    def take(self, chosen: Array) -> EdgeSamples:
+    def take(self, chosen: Index | NDArray[np.bool_]) -> EdgeSamples:
         """The samples at an index or mask array."""
         return EdgeSamples(self.edges[chosen], self.fractions[chosen], self.points[chosen], self.lengths[chosen])
 

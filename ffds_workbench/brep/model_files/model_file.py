@@ -7,7 +7,7 @@ stands in the document (its placement and those of the parts that hold it applie
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from typing import Any
 import FreeCAD
 import Part
 
+from ...compat import Colour
 from ...errors import InputError, RefusedError
 from .. import topology
 from ..validity import listed, newly_invalid
@@ -80,8 +81,12 @@ def read(path: str | Path, label: str | None = None) -> Model:
 
 def _decoration(about: Mapping[str, Any]) -> Decoration:
     """A decoration out of JSON, which has lists only."""
-    colours = tuple(tuple(colour) for colour in about["colours"])
+    colours = _colours(about["colours"])
     return Decoration(about["product"], tuple(about["solids"]), tuple(about["faces"]), colours)
+
+
+def _colours(rows: Iterable[Sequence[float]]) -> tuple[Colour, ...]:
+    return tuple((red, green, blue, other) for red, green, blue, other in rows)
 
 
 def _checked(path: Path, model: Model) -> Model:
@@ -92,7 +97,7 @@ def _checked(path: Path, model: Model) -> Model:
     return model
 
 
-def from_object(item: object) -> Model:
+def from_object(item: Any) -> Model:
     """A shape, or a document object where it stands, as a model.
 
     Raises
@@ -105,9 +110,8 @@ def from_object(item: object) -> Model:
         if item is None:
             raise InputError("There is no part: select one, or choose one in the properties.")
         raise InputError(f"{getattr(item, 'Label', item)} has no shape: select a part.")
-    colours = ()
-    if getattr(item, "ViewObject", None) is not None:
-        colours = tuple(map(tuple, getattr(item.ViewObject, "DiffuseColor", ())))
+    view = getattr(item, "ViewObject", None)
+    colours = _colours(getattr(view, "DiffuseColor", ()))
     return _checked(Path(item.Label), Model(placed_shape(item), item.Label, Decoration(colours=colours)))
 
 
@@ -123,7 +127,8 @@ def check_numbers(nominal: Model, path: Path) -> None:
     if faces:
         names = listed([f"Face{face + 1}" for face in faces])
         raise RefusedError(f"A STEP file cannot keep the numbers of this model's edges: they go round {names} in "
-                           f"another order than they are numbered. Write .brep or .FCStd, which keep them.")
+                           f"another order than they are numbered. Write .brep or .FCStd, which keep them, or take as "
+                           f"nominal model a STEP file that FreeCAD has exported of it.")
 
 
 def write(model: Model, path: Path) -> ReadBack:

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import FreeCAD
 import Part
@@ -128,13 +129,13 @@ def placed_shape(item: object) -> Part.Shape:
     return shape
 
 
-def outer_placement(item: object) -> FreeCAD.Placement:
+def outer_placement(item: Any) -> FreeCAD.Placement:
     """From the coordinates of what holds a document object to the document's; a link does not know it itself."""
     holder = item.getParentGeoFeatureGroup()
     return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
 
 
-def _pick(path: Path, document: object, label: str | None) -> object:
+def _pick(path: Path, document: Any, label: str | None) -> Any:
     """The object that is asked for, or the only one that stands for itself."""
     candidates = [item for item in document.Objects if hasattr(item, "Shape") and item.Shape.Faces]
     if label is not None:

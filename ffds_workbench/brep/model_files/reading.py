@@ -40,8 +40,10 @@ _BYTES, _BYTES_PER_BYTE = 1 << 30, 200
 _DOCUMENT_GAIN = 20
 """Bytes of a FreeCAD document's text for each of its compressed file that limits allow for. Physical: BREP has 5."""
 _PATIENCE = 3.0
-"""Times its processor time that reading is waited for, as it gets but a share of a busy machine."""
-
+"""Times its processor time that reading is waited for where the system does not tell how much of it is used."""
+_STILL = 10.0
+"""Seconds for which reading may get no processor time, as on a slow disk, before it counts as stuck."""
+_LOOK = 0.5
 
 _OUT_OF_TIME = -getattr(signal, "SIGXCPU", 0) or None
 """What a process that has used its processor time returns."""
@@ -92,10 +94,7 @@ def content(path: Path, label: str | None) -> tuple[Part.Shape, dict[str, Any]]:
 def _finished(path: Path, under_way: Reading) -> tuple[Part.Shape, dict[str, Any]]:
     """What a reading comes to, waited for."""
     folder = Path(under_way.folder.name)
-    try:
-        late = under_way.process.wait(max(0.0, under_way.deadline - time.monotonic())) == _OUT_OF_TIME
-    except subprocess.TimeoutExpired:
-        late = True
+    late = not _waited_for(under_way)
     if late or not (folder / "about.json").exists():
         raise InputError(f"The model {path} cannot be read: {_why(late, under_way.seconds)}.")
     about = json.loads((folder / "about.json").read_text("utf-8"))
@@ -107,6 +106,33 @@ def _finished(path: Path, under_way: Reading) -> tuple[Part.Shape, dict[str, Any
     if (folder / "shape.bin").exists():
         shape.importBinary(str(folder / "shape.bin"))
     return shape, about
+
+
+def _waited_for(under_way: Reading) -> bool:
+    """Whether a reading came to an end by itself; on a busy machine it goes on slowly, and is not stuck."""
+    used, since = 0.0, time.monotonic()
+    while True:
+        try:
+            return under_way.process.wait(_LOOK) != _OUT_OF_TIME
+        except subprocess.TimeoutExpired:
+            now = _processor_time(under_way.process.pid)
+        if now is None:
+            stuck = time.monotonic() > under_way.deadline
+        elif now > used:
+            used, since, stuck = now, time.monotonic(), False
+        else:
+            stuck = time.monotonic() - since > _STILL
+        if stuck:
+            return False
+
+
+def _processor_time(process: int) -> float | None:
+    """What a process has used so far, in the system's clock ticks; None where the system does not tell."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return None
+    return float(fields[11]) + float(fields[12])  # utime and stime, counted from the state behind the name
 
 
 def _why(late: bool, seconds: float) -> str:

@@ -109,7 +109,7 @@ class _Entities:
             return _rgb(_STRING.sub("", parameters).split(",")[1:4])
         if kind == "DRAUGHTING_PRE_DEFINED_COLOUR":
             named = _NAMED_COLOURS.get(self.name(number).lower())
-            return (*map(float, named), 0.0) if named else None
+            return (float(named[0]), float(named[1]), float(named[2]), 0.0) if named else None
         if kind not in _THROUGH_STYLE or depth > len(_THROUGH_STYLE):
             return None
         if number not in self._colours:

@@ -9,7 +9,6 @@ import Part
 from ...compat import write_step
 from ...errors import RefusedError
 from .. import topology
-from ..topology import Topology
 from . import step_colours
 from .read_back import ReadBack, compare
 from .reader import surface_types
@@ -22,22 +21,14 @@ _MOST_UNCERTAIN = 0.001
 
 
 def write(shape: Part.Shape, decoration: Decoration, path: Path) -> ReadBack:
-    """Write a STEP file with names and colours, and read it back: arranged, or as it is where only that keeps its
-    numbers.
+    """Write a STEP file with names and colours, arranged so that it keeps the shape's numbers, and read it back.
 
     Raises
     ------
     RefusedError : the file could not be written
     """
-    written = topology.read(shape)
-    back = _write(ordered(shape), shape, written, decoration, path)
-    return _write(shape, shape, written, decoration, path) if back.differences(written) else back
-
-
-def _write(arranged: Part.Shape, shape: Part.Shape, written: Topology, decoration: Decoration, path: Path) -> ReadBack:
-    """Write a shape arranged for STEP, and compare what reads back with the shape itself."""
     try:
-        write_step(arranged, path)
+        write_step(ordered(shape), path)
     except (OSError, RuntimeError, Part.OCCError) as error:
         raise RefusedError(f"The STEP file could not be written: {error}.") from error
     if not path.exists() or not step_colours.is_complete(path):
@@ -45,7 +36,7 @@ def _write(arranged: Part.Shape, shape: Part.Shape, written: Topology, decoratio
     text = with_free_shapes(path.read_text("utf-8"), shape)
     text = step_colours.decorate(text, decoration, surface_types(shape))
     path.write_text(step_colours.with_uncertainty(text, min(_tolerance(shape), _MOST_UNCERTAIN)), "utf-8")
-    return compare(path.suffix.lower(), shape, written, Part.read(str(path)))
+    return compare(path.suffix.lower(), shape, topology.read(shape), Part.read(str(path)))
 
 
 def _tolerance(shape: Part.Shape) -> float:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import Part
 
 _ENTITY = re.compile(r"^#(\d+) = ([^;]*);\n", re.MULTILINE)
-_REPRESENTATION = re.compile(r"\w*SHAPE_REPRESENTATION\('',\(([#\d,\s]+)\),#\d+\)")
+_REPRESENTATION = re.compile(r"\w*SHAPE_REPRESENTATION\('',\s*\(([#\d,\s]+)\),\s*#\d+\)")
 _REFERENCE = re.compile(r"#(\d+)")
 _SOLIDS = ("MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP")
 _SHEET, _CURVES, _POINTS = "SHELL_BASED_SURFACE_MODEL", "GEOMETRIC_CURVE_SET", "GEOMETRIC_SET"
@@ -36,9 +36,8 @@ def with_free_shapes(text: str, shape: Part.Shape) -> str:
     if found is None:
         return text
     items = [int(item) for item in _REFERENCE.findall(found[1])]
-    solids, sheets, curves, others = (
-        [item for item in items if entities[item].startswith(kinds)]
-        for kinds in (_SOLIDS, _SHEET, _CURVES, "AXIS2_PLACEMENT_3D"))
+    kinds: tuple[tuple[str, ...], ...] = _SOLIDS, (_SHEET,), (_CURVES,), ("AXIS2_PLACEMENT_3D",)
+    solids, sheets, curves, others = ([item for item in items if entities[item].startswith(kind)] for kind in kinds)
     free = [part for body in bodies if isinstance(body, list) for part in body]
     whole = [body.ShapeType for body in bodies if not isinstance(body, list)]
     told = whole.count("Solid"), len(whole) - whole.count("Solid"), sum(part.ShapeType == "Edge" for part in free)

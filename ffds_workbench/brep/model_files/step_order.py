@@ -11,6 +11,7 @@ loops. An edge is turned where its vertices, both met there first, would change 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import Part
@@ -52,7 +53,9 @@ def ordered(shape: Part.Shape) -> Part.Shape:
 def disordered(shape: Part.Shape) -> tuple[int, ...]:
     """Indices of the faces round which the edges go in an order that is neither that of their numbers nor its reverse.
 
-    A loop of a STEP file goes round in order: it cannot number them so.
+    No STEP file can number them so: OCCT's reader first of all puts the edges of a loop in the order in which they
+    follow each other in space (``ShapeFix_Wire::FixReorder``). Only what it divides later, an edge through the pole of
+    a face met after this one, comes into this loop in another order.
     """
     return _Arrangement(parse(shape.exportBrepToString())).disordered()
 
@@ -156,7 +159,7 @@ class _Arrangement:
         seam = next(use.edge for use in loop if use.edge not in poles)
         turned, axis = (surface.exchanged(), 0) if poles[0] < seam else (surface, 1)
         ends = (self._uv(face, next(use for use in loop if use.edge == pole)) for pole in poles)
-        first, last = (np.mean(uv, axis=0) for uv in ends)
+        first, last = (np.mean(cast(Array, uv), axis=0) for uv in ends)  # a pole is nothing but its pcurve
         backwards_now = (turned.matrix @ (last - first))[axis] < 0
         return turned.turned(axis) if backwards_now else turned
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import BSpline
 
-from ...registration.arrays import Array
+from ...registration.arrays import Array, Index
 
 
 @dataclass(frozen=True)
@@ -71,6 +71,13 @@ class Spline:
             t = first + np.mod(t - first, last - first)
         values = BSpline.construct_fast(self.knots, self.poles, self.degree)(t)
         return values[:, :-1] / values[:, -1:] if self.rational else values
+
+    def mapped(self, linear: Array, shift: Array) -> Spline:
+        """The curve under x -> linear·x + shift; ``linear`` is (dim, dim')."""
+        if not self.rational:
+            return replace(self, poles=self.poles @ linear.T + shift)
+        points, weights = self.poles[:, :-1], self.poles[:, -1:]
+        return replace(self, poles=np.concatenate([points @ linear.T + weights * shift, weights], axis=1))
 
     def breaks(self) -> Array:
         """Knots, repeated so that a cubic keeps the continuity C^(degree − multiplicity) there."""
@@ -148,7 +155,7 @@ def _homogeneous(numbers: Array, count: int, dimension: int, rational: bool) -> 
     return np.concatenate([poles[:, :-1] * poles[:, -1:], poles[:, -1:]], axis=1) if rational else poles
 
 
-def _unrolled(knots: Array, multiplicities: Array, poles: Array, degree: int) -> tuple[Array, Array]:
+def _unrolled(knots: Array, multiplicities: Index, poles: Array, degree: int) -> tuple[Array, Array]:
     """A periodic spline as one that repeats: OCCT's first pole belongs to the flat knots before the first one."""
     period, one = knots[-1] - knots[0], np.repeat(knots[:-1], multiplicities[:-1])
     turns = 1 + -(-(2 * degree + 2) // len(one))
@@ -165,10 +172,7 @@ def mapped(curve: Curve, linear: Array, shift: Array) -> Curve:
         return replace(curve, origin=linear @ curve.origin + shift, axis_x=linear @ curve.axis_x,
                        axis_y=linear @ curve.axis_y)
     if isinstance(curve, Spline):
-        if curve.rational:
-            points, weights = curve.poles[:, :-1], curve.poles[:, -1:]
-            return replace(curve, poles=np.concatenate([points @ linear.T + weights * shift, weights], axis=1))
-        return replace(curve, poles=curve.poles @ linear.T + shift)
+        return curve.mapped(linear, shift)
     raise ValueError("an offset curve has no exact image")
 
 

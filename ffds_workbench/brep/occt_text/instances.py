@@ -126,7 +126,8 @@ def composed(outer: str, inner: str) -> str:
 
 def walk(brep: BrepText, locations: Locations) -> Instances:
     """Find all instances by the depth-first walk in which OCCT numbers sub-shapes."""
-    result, containers = Instances(), []
+    result = Instances()
+    containers: list[Instance] = []
     lists = {"Fa": result.faces, "Ed": result.edges, "Ve": result.vertices}
     known: dict[Instance, int] = {}
 
@@ -155,9 +156,9 @@ def walk(brep: BrepText, locations: Locations) -> Instances:
             in_wire = locations.chain(wire.location)
             for child in brep.shapes[wire.shape].children if brep.shapes[wire.shape].kind == "Wi" else ():
                 place = product(in_wire, locations.chain(child.location))
-                edge = known[Instance(child.shape, product(face.place, place))]
-                uses.append(EdgeUse(edge, composed(wire.orientation, child.orientation), place))
-                if index not in result.edge_faces[edge]:
-                    result.edge_faces[edge].append(index)
+                number = known[Instance(child.shape, product(face.place, place))]
+                uses.append(EdgeUse(number, composed(wire.orientation, child.orientation), place))
+                if index not in result.edge_faces[number]:
+                    result.edge_faces[number].append(index)
         result.face_uses.append(uses)
     return result

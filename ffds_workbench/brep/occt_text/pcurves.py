@@ -119,15 +119,11 @@ def allowed(curve: Curve, first: float, last: float) -> Pcurve:
     Lines, circles and clamped splines may stay. A left-handed circle may not: STEP has none.
     """
     match curve:
-        case Line():
-            stays = True
-        case Conic():
-            stays = curve.kind == _CIRCLE and np.linalg.det([curve.axis_x, curve.axis_y]) > 0
-        case Spline():
-            stays = not curve.periodic
-        case _:
-            stays = False
-    return Pcurve(curve, first, last, print_curve(curve)) if stays else cubic(curve, first, last, curve.breaks())
+        case Conic() if curve.kind != _CIRCLE or np.linalg.det([curve.axis_x, curve.axis_y]) <= 0:
+            pass
+        case Line() | Conic() | Spline(periodic=False):
+            return Pcurve(curve, first, last, print_curve(curve))
+    return cubic(curve, first, last, curve.breaks())
 
 
 def cubic(f: Callable[[Array], Array], first: float, last: float, breaks: Array) -> Pcurve:

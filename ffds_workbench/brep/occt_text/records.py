@@ -8,6 +8,7 @@ same number. Triangulations and polygons are dropped: they are display data of t
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...errors import RefusedError
@@ -90,12 +91,15 @@ class FaceSurface:
     location: int
 
 
+Geometry = VertexPoint | EdgeCurves | FaceSurface
+
+
 @dataclass(frozen=True)
 class TShape:
     """A shape without place or orientation: 'Ve', 'Ed', 'Wi', 'Fa', 'Sh', 'So', 'CS' or 'Co', and its parts."""
 
     kind: str
-    geometry: VertexPoint | EdgeCurves | FaceSurface | None
+    geometry: Geometry | None
     flags: str
     children: tuple[ShapeReference, ...]
 
@@ -179,7 +183,7 @@ def _representation_line(item: Curve3d | CurveOnSurface | Regularity) -> str:
     return f"3  {item.pcurves[0]} {item.pcurves[1]}{item.continuity} {place}"
 
 
-def _records(tokens: list[str], count: int, find_end) -> list[str]:
+def _records(tokens: list[str], count: int, find_end: Callable[[list[str], int], int]) -> list[str]:
     records, start = [], 0
     for _ in range(count):
         end = find_end(tokens, start)
@@ -200,11 +204,11 @@ def _location_end(tokens: list[str], start: int) -> int:
 
 
 def _shapes(tokens: list[str], count: int) -> tuple[list[TShape], ShapeReference]:
-    read = {"Ve": _vertex, "Ed": _edge, "Fa": _face}
+    read: dict[str, Callable[[list[str], int], tuple[Geometry, int]]] = {"Ve": _vertex, "Ed": _edge, "Fa": _face}
     shapes, at = [], 0
     for _ in range(count):
         kind, at = tokens[at], at + 1
-        geometry = None
+        geometry: Geometry | None = None
         if kind in read:
             geometry, at = read[kind](tokens, at)
         flags, at = tokens[at], at + 1
@@ -253,7 +257,7 @@ def _edge(tokens: list[str], at: int) -> tuple[EdgeCurves, int]:
             at += 6
         else:
             at += {"5": 3, "6": 4, "7": 5}[kind]
-    return EdgeCurves(tolerance, *flags, tuple(items)), at + 1
+    return EdgeCurves(tolerance, flags[0], flags[1], flags[2], tuple(items)), at + 1
 
 
 def _pcurves(tokens: list[str], at: int) -> tuple[tuple[int, ...], str, int]:

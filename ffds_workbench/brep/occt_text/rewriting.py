@@ -13,10 +13,13 @@ import numpy as np
 
 from ...registration.arrays import Array
 from ...registration.splines import DEGREE, SplineSurface
-from .curves import Spline, knots_text, mapped, numbers_text, print_curve
+from .curves import Spline, knots_text, numbers_text, print_curve
 from .instances import Chain, Instance, Instances, Locations, product
 from .pcurves import UsedEdge
 from .records import BrepText, Curve3d, CurveOnSurface, EdgeCurves, FaceSurface, ShapeReference, TShape, VertexPoint
+
+_ANYWHERE: Chain = ((0, 0),)
+"""The place of a shape that does not change: none has it, as elementary locations are numbered from 1."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,7 @@ class Rewriter:
         place = product(outer, self._locations.chain(reference.location))
         instance = Instance(reference.shape, place)
         # Shapes that do not change are shared by all their places.
-        key = instance if self._changes(instance) else Instance(reference.shape, (("unchanged", 0),))
+        key = instance if self._changes(instance) else Instance(reference.shape, _ANYWHERE)
         if key not in self._written:
             old = self._old.shapes[reference.shape]
             children = tuple(replace(child, shape=self._write(child, place)) for child in old.children)
@@ -133,7 +136,7 @@ class Rewriter:
                        for item in self._on_face(face, index)]
         if new.curve is not None:
             local = np.linalg.inv(self._locations.matrix(self._instances.edges[index].place))
-            self._new.curves_3d.append(print_curve(mapped(new.curve, local[:3, :3], local[:3, 3])))
+            self._new.curves_3d.append(print_curve(new.curve.mapped(local[:3, :3], local[:3, 3])))
             first, last = float(new.curve.knots[0]), float(new.curve.knots[-1])
             items.append(Curve3d(len(self._new.curves_3d), 0, first, last))
         if any(face not in self._faces for face in self._instances.edge_faces[index]):

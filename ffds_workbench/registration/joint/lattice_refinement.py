@@ -10,8 +10,8 @@ from scipy.linalg import lstsq
 from ..arrays import Array
 from ..splines import greville
 from .data import patch_sums
+from .iteration import EdgeCache, ShapeMatrices, State, StepCache
 from .problem import Problem
-from .state import State, fresh_cache
 from .surfaces import FaceLattice, cubic
 
 _MODEL_SHARE = 1 / 3
@@ -58,7 +58,7 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
             values = np.moveaxis(np.tensordot(lstsq(rows, np.eye(len(sites)))[0], values, axes=(1, axis)), 0, axis)
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
-    cache = replace(fresh_cache(fine, control_points), near_edges=state.cache.near_edges)
+    cache = StepCache(ShapeMatrices.of(fine, control_points), edges=EdgeCache(state.cache.edges.near))
     return replace(state, control_points=control_points, cache=cache)
 
 

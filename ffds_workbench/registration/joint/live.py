@@ -8,12 +8,11 @@ import numpy as np
 
 from ..arrays import Array
 from ..splines import SplineSurface
+from .iteration import State, gauss_newton_step, start
 from .prior_trust import update_prior_trust
 from .problem import Problem, make_problem
 from .settings import JointSettings, Stage, stages
 from .skins import candidate_outward_normals
-from .solve import gauss_newton_step
-from .state import State, start
 from .surfaces import JointPart
 
 _COARSER = 0.4
@@ -39,7 +38,7 @@ class LiveJoint:
         self._problem = make_problem(part, scan[some], _coarse(settings), {},
                                      None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
-        self._state = replace(state, facing=candidate_outward_normals(self._problem, state.reach)[0][0])
+        self._state = replace(state, outward=candidate_outward_normals(self._problem, state.reach)[0][0])
         for stage in stages(settings.schedule, state.reach):
             if not stage.all_points:
                 self._state = update_prior_trust(self._problem, self._state, stage)
@@ -65,7 +64,7 @@ def _coarse(settings: JointSettings) -> JointSettings:
 
 def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:
     """Gauss-Newton steps, without the pull of visible borders: it changes little here and takes half of the time."""
-    state = replace(state, cache=replace(state.cache, nearest=None))
+    state = replace(state, cache=replace(state.cache, points=replace(state.cache.points, nearest=None)))
     for _ in range(most):
         state = gauss_newton_step(problem, replace(stage, soft=False), state)
         if state.last_step < stage.enough:

@@ -11,10 +11,10 @@ from ...errors import RefusedError
 from ..arrays import Array, Index
 from ..motions import apply, best_fit
 from .data import Correspondence, correspond, make_frames
+from .iteration import EdgeCache, PointCache, State
 from .joint_result import JointRegistration, SolidMotion
 from .prior_trust import is_isometric, observed_strain
 from .problem import Problem
-from .state import State
 from .surfaces import normals
 from .uncertainty import assess
 
@@ -123,7 +123,7 @@ def summarise(problem: Problem, state: State) -> JointRegistration:
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     displacements = tuple(problem.lattices.spline(index, state.control_points)
                           for index in range(len(problem.part.faces)))
-    kept = replace(state.cache, factor=None, nearest=None, near_edges=None)
+    kept = replace(state.cache, factor=None, points=PointCache(), edges=EdgeCache(borders=state.cache.edges.borders))
     return JointRegistration(
         displacements, partial(assess, problem, replace(state, cache=kept), displacements),
         solids=tuple(_solid_motion(problem, position, solid) for solid in problem.part.solids),

@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import Array
+from .iteration import State, mean_curvature_change
 from .priors import PriorTrust
 from .problem import Problem
 from .settings import Stage
-from .state import State
 from .surfaces import normals
 
 _EXPECTED = PriorTrust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0, sliding=60.0)
@@ -64,7 +64,7 @@ def cost_of_each_prior(problem: Problem, state: State) -> PriorTrust:
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
     strain = (stiffness.weight * (strain**2).sum(axis=2)).sum(axis=1)
-    across, along = couplings.thickness_misfit(control_points, state.cache.thickness_rows.normal)
+    across, along = couplings.thickness_misfit(control_points, state.cache.matrices.thickness.normal)
     weight, turned = couplings.thickness_weight, couplings.angle_change(control_points)[couplings.sharp]
     return PriorTrust(isometry=float(problem.isometry_weights(PriorTrust())[0] * strain[problem.skin].sum()),
                       thickness=float((weight * across**2).sum()),
@@ -72,6 +72,24 @@ def cost_of_each_prior(problem: Problem, state: State) -> PriorTrust:
                       dihedral=float((couplings.dihedral_weight[couplings.sharp] * turned**2).sum()),
                       sliding=stiffness.sliding(problem.lattices, control_points, normal)
                       / (settings.curvature * settings.curvature_length) ** 2)
+
+
+def prior_cost(problem: Problem, state: State) -> float:
+    """What all priors together cost at the final shape, in chi-square units.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    state : where the solve stands
+    """
+    settings, stiffness = problem.settings, problem.stiffness
+    normal = normals(stiffness.places.displaced(problem.lattices, state.control_points, 3), stiffness.places.outward)[0]
+    change = stiffness.curvature_change(problem.lattices, state.control_points, normal)
+    change -= mean_curvature_change(problem, state.control_points, normal)[:, None, :]
+    bending = float((stiffness.weight * (change**2).sum(axis=2)).sum())
+    cost, trust = cost_of_each_prior(problem, state), state.trust
+    return (bending / (settings.curvature * settings.curvature_length) ** 2
+            + sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust)))
 
 
 def strain_at(problem: Problem, control_points: Array) -> Array:

@@ -12,14 +12,10 @@ from scipy.sparse import bsr_matrix, csr_matrix
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
-from .constant_rows import ConstantRows, constant_rows
-from .data import EdgeSides, ScanStatistics, edge_sides, scan_statistics, trim_margin
-from .free_motions import FreeMotions, find_free_motions
-from .linear import Pattern
-from .linear.memory import refuse_too_large
-from .lengths import Lengths, find_lengths
-from .priors import (GAUSS_PLACES, Couplings, PriorTrust, Stiffness, contact_rows, find_pairs, make_couplings,
-                     make_stiffness)
+from .data import EdgeSides, Lengths, ScanStatistics, edge_sides, find_lengths, scan_statistics, trim_margin
+from .linear import Pattern, refuse_too_large
+from .priors import (GAUSS_PLACES, ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows,
+                     contact_rows, find_free_motions, find_pairs, make_couplings, make_stiffness)
 from .settings import JointSettings
 from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, distance_to_trims, make_span_grid, normals,
                        span_counts)
@@ -30,19 +26,8 @@ _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.7
 _CELLS_PER_SPAN = (3, 10)
-_SAME_NORMAL = 0.02
-"""The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
-thousand."""
 _WALL_ISOMETRY = 0.1
 """Isometry of faces that are no skin of a sheet, relative to the skins'."""
-
-
-@dataclass(frozen=True)
-class ThicknessRows:
-    """The thickness of sheets along normals (pairs, 3): ``blocks`` (size, 3, 3) are its rows on the pattern."""
-
-    normal: Array
-    blocks: Array
 
 
 @dataclass(frozen=True)
@@ -84,14 +69,6 @@ class Problem:
     free_motions: FreeMotions
     distance_to_nominal: Array
     sample_normals: Array | None = None
-
-    def thickness_rows(self, control_points: Array, known: ThicknessRows | None = None) -> ThicknessRows:
-        """Rows of the thickness along the sheets' current normals; those that are ``known`` if the normals hardly
-        differ."""
-        normal = self.couplings.sheet_normals(control_points)
-        if known is not None and np.abs(normal - known.normal).max(initial=0.0) < _SAME_NORMAL:
-            return known
-        return ThicknessRows(normal, self.pattern.from_vector(self.couplings.thickness_matrix(normal)))
 
     def without_points_on(self, faces: Sequence[int]) -> Problem:
         """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
@@ -154,7 +131,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
-    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area)
+    pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature)
     distance = distance_to_trims(part.faces, lattices, cells)
     lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
@@ -163,9 +140,10 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pattern = Pattern(lattices, coupled, _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
+    margin = trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise))
+    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
-                   pattern, constant_rows(pattern, stiffness, couplings), edge_sides(couplings.edges),
-                   trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise)), lengths,
+                   pattern, constant_rows(pattern, stiffness, couplings), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 

@@ -2,10 +2,10 @@
 """The rigid pose of a scan on the nominal model. numpy and scipy only; never FreeCAD.
 
 ``align(target_of(faces), scan, mode)`` is the whole of it; ``align.py`` reads top to bottom as the algorithm, whose
-quick and thorough ways are `settings` (how far it looks: `search_settings`). ``model/`` is the nominal part, ``search/``
-proposes poses, ``refine/`` improves one, ``deformation/`` allows the part to have deformed. A `hypothesis` is a refined
-pose with its `evidence`; `polish` has the last word on its numbers, `verdict` (with `symmetry`) on whether it is the
-answer.
+quick and thorough ways are `settings` (how far it looks: `search_settings`). ``model/`` is the nominal part,
+``search/`` proposes poses, ``refine/`` improves one, ``deformation/`` allows the part to have deformed. A `hypothesis`
+is a refined pose with its `evidence`; `polish` has the last word on its numbers, `verdict` (with `symmetry`) on whether
+it is the answer.
 """
 from .align import align
 from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose

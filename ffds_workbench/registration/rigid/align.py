@@ -13,9 +13,9 @@ from .evidence import LooseScan, match_scan, weigh_match
 from .hypothesis import Hypothesis, choose, clearly_right, is_good, matched_on, promising, refined
 from .model import Target
 from .polish import polish
+from .scan_unit import plausible_scales
 from .search import propose, starts_of
 from .settings import Effort
-from .unit_guess import plausible_scales
 from .verdict import Answer, alignment_of, failed_alignment
 
 

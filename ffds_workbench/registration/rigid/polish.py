@@ -15,9 +15,8 @@ from ..parallel import workers
 from ..robust_weights import TUKEY_SIGMAS, robust_sigma, tukey
 from ..scan_sketch import Sketch, thin
 from .deformation import DisplacementField, match_deformed, pose_of_deformed_part
-from .model import Target, kept_with_target
+from .model import Target, kept_with_target, nearest_field
 from .refine import ScanEnds, find_scan_ends, gauss_newton, points_near_rims, refine
-from .search.candidates import nearest_field
 
 
 def polish(target: Target, sketch: Sketch, pose: Array, normals: Array,

@@ -15,7 +15,7 @@ from .hypothesis import Hypothesis
 from .polish import polish
 from .settings import VerdictSettings
 from .symmetry import Symmetry, symmetry_of
-from .unit_guess import unit_name
+from .scan_unit import unit_name
 
 
 @dataclass(frozen=True)

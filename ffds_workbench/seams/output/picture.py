@@ -105,8 +105,8 @@ def _draw_plot(axes: Any, label: str, curves: Sequence[_Curve], plan: SeamPlan, 
                  if values is not None]
         for number, (along, values) in enumerate(shown):
             axes.plot(along, values, color=colour, linewidth=1.5, label=curve.name if number == 0 else None, zorder=3)
-    largest = max((float(np.nanmax(np.abs(values))) for seam in plan.seams for curve in curves
-                   if (values := curve.values(seam)) is not None and np.isfinite(values).any()), default=0.0)
+    largest = max((float(np.nanmax(np.abs(some))) for seam in plan.seams for curve in curves
+                   if (some := curve.values(seam)) is not None and np.isfinite(some).any()), default=0.0)
     for limit in {curve.limit for curve in curves if curve.limit <= 3.0 * largest}:
         for level in (limit, -limit):
             axes.axhline(level, color=_LIMIT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1)

@@ -57,26 +57,26 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     InputError : a format is unknown, a file cannot be written, a tool or base does not suit the robot
     RefusedError : a program would hold no seam, or the disk is full
     """
-    outs, inputs = list(map(Path, outs)), list(map(Path, inputs))
-    report_path, picture = (None if path is None else Path(path) for path in (report_path, picture))
-    check_seam_outputs(outs, (report_path, picture), inputs)
-    extra = [path for path in (report_path, picture) if path is not None]
+    files = list(map(Path, outs))
+    report, drawing = (None if path is None else Path(path) for path in (report_path, picture))
+    check_seam_outputs(files, (report, drawing), list(map(Path, inputs)))
+    extra = [path for path in (report, drawing) if path is not None]
     robot = robot or RobotSettings()
     paths = [moves(seam, robot) for seam in programmed_seams(plan, robot)]
-    if not paths and any(out.suffix.lower() in PROGRAMS for out in outs):
+    if not paths and any(out.suffix.lower() in PROGRAMS for out in files):
         raise RefusedError("No seam is within its limits, so no program was written: look at the report, set other "
                            "limits, or keep failing seams (--keep-failing).")
-    targets = [target for out in outs for target in _targets(out)] + extra
+    targets = [target for out in files for target in _targets(out)] + extra
     with replacing(*targets) as temporary:
         names = dict(zip(targets, temporary, strict=True))
-        for out in outs:
+        for out in files:
             _write_one(out, names, plan, paths, robot)
-        if report_path is not None:
+        if report is not None:
             text = json.dumps(plan.record(), indent=1, ensure_ascii=False, allow_nan=False)
-            names[report_path].write_text(text + "\n", "utf-8")
-        if picture is not None:
-            draw(names[picture], plan)
-    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in outs
+            names[report].write_text(text + "\n", "utf-8")
+        if drawing is not None:
+            draw(names[drawing], plan)
+    renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in files
                if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
     return program_notes(plan, robot) + renamed
 
@@ -107,7 +107,7 @@ def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequen
         write_document(names[out], paths, robot)
         return
     if suffix == ".csv":
-        texts = (csv_text(plan.seams),)
+        texts: tuple[str, ...] = (csv_text(plan.seams),)
     elif suffix == ".src":
         texts = krl_texts(out.stem, paths, robot)
     else:

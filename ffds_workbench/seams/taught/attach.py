@@ -74,7 +74,7 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
     candidates = [finder(point) for point in points]
     held_by = Counter(anchor.edge for several in candidates for anchor in several)
     # Where edges meet, the path goes on along the one that it follows elsewhere.
-    anchors = [max(several, key=lambda anchor: held_by[anchor.edge], default=None) for several in candidates]
+    anchors = [max(several, key=lambda anchor: held_by[anchor.edge]) if several else None for several in candidates]
     held = np.array([anchor is not None for anchor in anchors])
     if not held.any():
         raise RefusedError("No pose of the path is near the nominal model: is the path in mm, and in the model's "

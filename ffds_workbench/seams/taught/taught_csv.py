@@ -74,7 +74,7 @@ class TaughtCsv:
                 row[column : column + 1] = [""] * (column < len(row))
         stream = io.StringIO()
         writer = csv.writer(stream, delimiter=self.delimiter, lineterminator="\n")
-        writer.writerows(([self.header] if self.header else []) + cells)
+        writer.writerows([*([self.header] if self.header else []), *cells])
         return stream.getvalue()
 
     def _stretched(self, after: Array) -> Array:

@@ -6,8 +6,9 @@ Poses are the aggregates with X, Y and Z in .src and .dat. Left alone are tools,
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -58,10 +59,14 @@ class TaughtKrl:
         for pose, point, turn in reversed(list(zip(self._poses, points, turned, strict=True))):
             new = dict(zip("XYZABC", [*numbers(point, 4), *numbers(turn, 5)], strict=True))
             text = texts[pose.file]
-            replaced = _NUMBER.sub(lambda match, new=new: f"{match[1]} {new[match[1].upper()]}",
-                                   text[pose.start : pose.end])
+            replaced = _NUMBER.sub(partial(_with_new_number, new), text[pose.start : pose.end])
             texts[pose.file] = text[: pose.start] + replaced + text[pose.end :]
         return tuple(texts)
+
+
+def _with_new_number(new: Mapping[str, str], match: re.Match[str]) -> str:
+    """A component of a position with its new number."""
+    return f"{match[1]} {new[match[1].upper()]}"
 
 
 def renamed(text: str, old: str, new: str) -> str:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ...arrays import Array, Index
 from ...motions import apply, best_fit
-from ..assembly import NormalEquations, add_products, gather
 from ..data import Borders, CellHeights
+from ..linear import NormalEquations
 from ..priors import COMPONENTS, PriorTrust, pose_weight
 from ..problem import Problem
 from ..surfaces import Jet, normals
@@ -125,10 +125,11 @@ def add_body_rows(equations: NormalEquations, problem: Problem, control_points: 
     precision = _weight_share(rows.sheet, trust)[:, None, None] * rows.precision
     products = rows.basis[:, :, None] * rows.basis[:, None, :]
     for a, b in COMPONENTS:
-        add_products(equations, problem, a, b, precision[:, a, b, None, None] * products, rows.spans)
+        equations.add_products(a, b, precision[:, a, b, None, None] * products, rows.spans)
     now = np.einsum("nc,ncx->nx", rows.basis, control_points[problem.lattices.controls[rows.spans]])
     pull = np.einsum("nxy,ny->nx", precision, rows.displacement - now)
-    np.add(equations.right, gather(problem, rows.basis[:, :, None] * pull[:, None, :], rows.spans), out=equations.right)
+    load = problem.lattices.sum_of_loads(rows.basis[:, :, None] * pull[:, None, :], rows.spans)
+    np.add(equations.right, load, out=equations.right)
 
 
 def _is_sheet(problem: Problem, solid: Index) -> NDArray[np.bool_]:

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ..priors import SharedEdgePlaces
-from ..surfaces import FacePlaces, concatenate
+from ..surfaces import FacePlaces, SpanGrid, by_face, concatenate
 
 _SEARCH_REACH = 4.0
 _LARGEST_OFFSET = 2.0
@@ -81,18 +81,34 @@ class EdgeSides:
     ----------
     sign : (2, n) m = sign · (t × n) points out of the first and of the second face
     sharp : (n,) the edge is convex and sharp
+    cell : (2, n) the nearest cell of the first and of the second face that holds points, by its flat number; -1 where
+        the face has none
     """
 
     sign: Array
     sharp: NDArray[np.bool_]
+    cell: Index
 
 
-def edge_sides(edges: SharedEdgePlaces) -> EdgeSides:
-    """Sides of the nominal edges, as the faces' loops run."""
+def edge_sides(edges: SharedEdgePlaces, cells: SpanGrid, face_of_span: Index, holds: NDArray[np.bool_]) -> EdgeSides:
+    """Sides of the nominal edges, as the faces' loops run, and the cells beside them that hold points.
+
+    Parameters
+    ----------
+    cells : places on all faces, span by span
+    face_of_span : (spans,) number of the face
+    holds : (spans, k) whether a cell may hold points
+    """
+    span, place = np.nonzero(holds)
+    tree = cKDTree(by_face(cells.nominal.position[span, place], face_of_span[span]))
+    beside = [(side.face, tree.query(by_face(side.nominal[0], side.face), workers=-1)[1])
+              for side in (edges.first, edges.second)]
+    cell = np.stack([np.where(face_of_span[span[near]] == face, span[near] * holds.shape[1] + place[near], -1)
+                     for face, near in beside])
     normal = [side.nominal_normals for side in (edges.first, edges.second)]
     sign = np.where(edges.left, 1.0, -1.0)
     convex = np.einsum("nx,nx->n", sign[0][:, None] * np.cross(edges.direction, normal[0]), normal[1]) > 0
-    return EdgeSides(sign, edges.angled & convex & (np.einsum("nx,nx->n", *normal) < _SHARP_COSINE))
+    return EdgeSides(sign, edges.angled & convex & (np.einsum("nx,nx->n", *normal) < _SHARP_COSINE), cell)
 
 
 @dataclass(frozen=True)
@@ -134,10 +150,10 @@ def find_near_edges(points: Array, edges: SharedEdgePlaces, sides: EdgeSides, co
 
 
 def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, control_points: Array, noise: float,
-                 spread: Array, known: Borders | None) -> Borders:
+                 spread: Array, held: Array, known: Borders | None) -> Borders:
     """Visible borders at the current shape, from the scan points near its edges; those that are ``known`` while the
     edges lie where they were looked for. ``noise`` is that of the points, ``spread`` (faces,) that of the points about
-    the shape as it is, in mm.
+    the shape as it is, in mm, ``held`` (cells,) the points per mm² that the cells hold.
 
     Parameters
     ----------
@@ -149,8 +165,9 @@ def find_borders(near: NearEdges, edges: SharedEdgePlaces, sides: EdgeSides, con
         return known
     points, row = near.points, near.row
     pairs = (edges.first, edges.second), (edges.second, edges.first)
-    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]], sides.sharp, control_points, noise,
-                       spread)
+    density = [_running(np.nansum, edges.edge, np.append(held, 0.0)[cell]) for cell in sides.cell]
+    found = [_one_side(points, row, edges, seen, other, sides.sign[[k, 1 - k]],
+                       sides.sharp & (density[1 - k] < _SEEN_BEYOND_SHARE * density[k]), control_points, noise, spread)
              for k, (seen, other) in enumerate(pairs)]
     rows = [np.flatnonzero(weight > 0) for _, _, weight in found]
     samples = concatenate(edges.first.take(rows[0]), edges.second.take(rows[1]))

@@ -85,10 +85,10 @@ def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, di
 
 
 def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None,
-               facing: Array | None = None) -> Correspondence:
+               outward: Array | None = None) -> Correspondence:
     """Match points (n, 3) to cells within ``gate`` mm; ``nearest`` (n,) is known where the shape hardly moved since.
 
-    ``facing`` (n, 3) are outward normals of the points, zero where unknown: a point keeps to cells of its own side.
+    ``outward`` (n, 3) are outward normals of the points, zero where unknown: a point keeps to cells of its own side.
 
     Parameters
     ----------
@@ -97,8 +97,8 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     if nearest is None:
         tree = cKDTree(frames.position, balanced_tree=False, compact_nodes=False)
         nearest = tree.query(points, distance_upper_bound=gate + 2.0, workers=-1)[1]
-        if facing is not None:
-            nearest = _rematch_wrong_side(points, facing, frames, nearest, gate)
+        if outward is not None:
+            nearest = _rematch_wrong_side(points, outward, frames, nearest, gate)
     point = np.flatnonzero(nearest < len(frames.position))
     row = nearest[point]
     offset = points[point] - frames.position[row]
@@ -111,17 +111,17 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
     return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
 
 
-def _rematch_wrong_side(points: Array, facing: Array, frames: Frames, nearest: Index, gate: float) -> Index:
+def _rematch_wrong_side(points: Array, outward: Array, frames: Frames, nearest: Index, gate: float) -> Index:
     """``nearest`` with the points that face away from their cell matched again, by place and normal together."""
     none = len(frames.position)
-    cosine = np.einsum("nx,nx->n", facing, np.append(frames.normal, np.zeros((1, 3)), axis=0)[nearest])
+    cosine = np.einsum("nx,nx->n", outward, np.append(frames.normal, np.zeros((1, 3)), axis=0)[nearest])
     wrong = np.flatnonzero(cosine < 0)
     result = nearest.copy()
     result[wrong] = none
     if len(wrong) > _NEGLIGIBLE_SHARE * len(points):
         # Opposite sides are 4 gates apart, farther than anything is looked for.
         tree = cKDTree(np.hstack([frames.position, 2 * gate * frames.normal]), balanced_tree=False, compact_nodes=False)
-        result[wrong] = tree.query(np.hstack([points[wrong], 2 * gate * facing[wrong]]),
+        result[wrong] = tree.query(np.hstack([points[wrong], 2 * gate * outward[wrong]]),
                                    distance_upper_bound=2 * gate, workers=-1)[1]
     return result
 

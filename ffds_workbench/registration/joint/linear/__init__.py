@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The sparse linear system: `system` (pattern, assembly, solution), `cholesky` (multifrontal factor and selected
-inverse) and `dissection` (the elimination order).
+"""The sparse linear system: `normal_equations` that rows are added to, `system` (their pattern and solution),
+`cholesky` (multifrontal factor and selected inverse), `dissection` (the elimination order) and `memory` (what all of it
+takes).
 """
 from .cholesky import FrontCholesky
+from .memory import refuse_too_large
+from .normal_equations import NormalEquations
 from .system import Pattern, solve_normal_equations
 
-__all__ = ["FrontCholesky", "Pattern", "solve_normal_equations"]
+__all__ = ["FrontCholesky", "NormalEquations", "Pattern", "refuse_too_large", "solve_normal_equations"]

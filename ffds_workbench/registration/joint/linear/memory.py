@@ -50,7 +50,18 @@ def _whole() -> list[float]:
 
 
 def refuse_too_large(control_points: int, cells: int, points: int) -> None:
-    """Refuse a solve for which there is not enough memory (RefusedError)."""
+    """Refuse a solve for which there is not enough memory.
+
+    Parameters
+    ----------
+    control_points : how many there are
+    cells : of the raster
+    points : of the scan
+
+    Raises
+    ------
+    RefusedError : it needs more than there is
+    """
     wanted, there = needed(control_points, cells, points), available()
     if wanted > there:
         raise RefusedError(f"The job needs about {wanted / 1e9:.1f} GB of memory and {there / 1e9:.1f} GB are free: "

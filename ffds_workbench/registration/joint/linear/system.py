@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The normal equations: their sparsity pattern, fast assembly from spans, and solution with a reused factor."""
+"""The sparsity pattern of the normal equations, sums over spans on it, and their solution with a reused factor."""
 from __future__ import annotations
 
 import numpy as np

@@ -17,6 +17,9 @@ _OPPOSITE_COSINE = -0.95
 _LEAST_SHEET_SHARE = 0.5
 _LEAST_SLENDERNESS = 5.0
 _SAME_THICKNESS = 0.08
+_LEAST_RADIUS = 0.75
+"""Of a convex skin, relative to the thickness (theory: an outer bend has the whole thickness or more, and at half of it
+there is no mid surface): what is rounder, as the round of an edge, is no skin."""
 _MASSIVE_GIVE = 0.003
 """Change of the distance between opposite faces of a massive part, relative to it: they move together."""
 
@@ -45,7 +48,7 @@ class SheetPairs:
 
 
 def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], lattices: Lattices, cells: SpanGrid,
-               gauss: SpanGrid, area: Array) -> SheetPairs:
+               gauss: SpanGrid, area: Array, curvature: Array) -> SheetPairs:
     """Pairs from the Gauss places (``area`` elements (spans, k)) to the cells opposite, through the material.
 
     Parameters
@@ -54,7 +57,9 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
     solids : faces (k,) of each solid
     lattices : of all faces
     gauss : the Gauss places
+    curvature : (spans, k, 3) of the nominal faces there, as in `Stiffness`
     """
+    roundest = _most_convex(curvature, area, lattices.face_of_span, len(faces))
     found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []
@@ -65,7 +70,8 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
         kept.append(np.column_stack([pairs[keep], np.zeros(keep.sum())]) if is_sheet
                     else np.column_stack([pairs, _MASSIVE_GIVE * pairs[:, 6]]))
         if is_sheet:
-            of_face[np.unique(pairs[keep][:, :2].astype(int))] = thickness
+            skins = np.unique(pairs[keep][:, :2].astype(int))
+            of_face[skins] = np.where(roundest[skins] * _LEAST_RADIUS * thickness < 1, thickness, 0.0)
     table = np.concatenate([np.zeros((0, 9)), *kept])
     table = table[table[:, 0] < table[:, 1]]
     both = places_on_faces(faces, lattices, table[:, :2].T.astype(np.intp).ravel(),
@@ -73,6 +79,15 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
     front, back = np.arange(len(both)).reshape(2, -1)
     return SheetPairs(both.take(front), both.take(back), table[:, 6], table[:, 7], table[:, 8],
                       tuple(thickness_of_solid), of_face)
+
+
+def _most_convex(curvature: Array, area: Array, face_of_span: Index, faces: int) -> Array:
+    """Largest convex curvature of every face within its trims, (faces,) in 1/mm; at least 0."""
+    first, mixed, second = np.moveaxis(curvature, -1, 0)
+    convex = np.hypot(0.5 * (first - second), mixed / np.sqrt(2.0)) - 0.5 * (first + second)
+    result = np.zeros(faces)
+    np.maximum.at(result, face_of_span, np.where(area > 0, convex, 0.0).max(axis=1))
+    return result
 
 
 def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array) -> Array:

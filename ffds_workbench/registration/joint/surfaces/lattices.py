@@ -99,6 +99,8 @@ class Lattices:
     Parameters of the methods
     -------------------------
     control_points : (controls, 3) of the displacement in mm
+    loads : (n, 16, 3) on the control points of spans
+    spans : (n,) numbers of spans
     du : order of the derivative in u
     dv : order of the derivative in v
     """
@@ -118,6 +120,11 @@ class Lattices:
         """Weights (n, 16) of the control points of spans (n,) that give d or a derivative at local places (n, 2)."""
         scale = self.step[span, 0] ** -du * self.step[span, 1] ** -dv
         return products(local[:, 0], local[:, 1], du, dv) * scale[:, None]
+
+    def sum_of_loads(self, loads: Array, spans: Index | slice = slice(None)) -> Array:
+        """Loads (n, 16, 3) on the control points of all spans, or of the given ones (n,), summed up: (controls, 3)."""
+        controls, flat = self.controls[spans].ravel(), loads.reshape(-1, 3)
+        return np.stack([np.bincount(controls, weights=flat[:, k], minlength=self.count) for k in range(3)], axis=1)
 
     def spline(self, face: int, control_points: Array) -> SplineSurface:
         """The displacement of one face, (controls, 3) in mm, as a spline of its own."""

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ...splines import SplineSurface
+from ..data import misfit, nearest_spans
+from ..iteration import State
 from ..joint_result import EdgeRegistration, Flag, JointFace
 from ..priors import directions, parameters
 from ..problem import Problem
-from ..state import State
 from ..surfaces import normals, places_on_faces
 from .bands import TWO_SIDED, edge_bands, normal_bands
 from .covariance import covariance_blocks
-from .misfit import misfit, nearest_spans
 from .observed_cells import BRIDGED, CARRIED, OBSERVED, Coverage, coverage
 
 Flags = NDArray[np.str_]
@@ -34,7 +34,7 @@ def assess(problem: Problem, state: State, displacements: Sequence[SplineSurface
     """
     covariance, errors = covariance_blocks(problem, state)
     seen = coverage(problem, state.values)
-    off = misfit(problem, state.values) + (state.unsure / TWO_SIDED) ** 2
+    off = misfit(state.values, problem.lattices, problem.cells) + (state.unsure / TWO_SIDED) ** 2
     return (_faces(problem, state, displacements, covariance, errors, seen, off),
             _edges(problem, state, covariance, errors, seen, off))
 
@@ -84,7 +84,7 @@ def _edges(problem: Problem, state: State, covariance: Array, errors: Array, see
     gaps = [seen.gap_of(face, nominal) for face in (first, last)]
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
     flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))
-    spans = nearest_spans(problem, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
+    spans = nearest_spans(lattices, problem.cells, np.concatenate([first, last]), np.tile(nominal, (2, 1)))
     bands = edge_bands(problem, covariance, errors, samples, directions(points, number), gap,
                        off[spans].reshape(2, -1).max(axis=0))
     result = []

@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Array
-from ..assembly import add_borders, add_data, mean_curvature_change, shape_equations
-from ..body_field import add_body_rows
+from ..iteration import State, add_observations, prior_equations
 from ..linear import FrontCholesky
-from ..prior_trust import cost_of_each_prior
+from ..prior_trust import prior_cost
 from ..problem import Problem
-from ..state import State
-from ..surfaces import normals
 from .shared_noise import shared_errors
 
 _PRIORS_WIDE_ENOUGH = 1.2
@@ -31,15 +28,9 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:
 
 
 def _factor(problem: Problem, state: State) -> tuple[FrontCholesky, Array]:
-    cache = state.cache
-    equations = shape_equations(problem, state.control_points, 1.0, state.trust, cache.strain_matrices,
-                                cache.thickness_rows)
+    equations = prior_equations(problem, state, 1.0)
     prior = equations.blocks.copy()
-    add_data(equations, problem, problem.cells.displaced(problem.lattices, state.control_points), state.values)
-    if cache.borders is not None:
-        add_borders(equations, problem, state.control_points, cache.borders)
-    if cache.body is not None:
-        add_body_rows(equations, problem, state.control_points, cache.body, state.trust)
+    add_observations(equations, problem, state, problem.cells.displaced(problem.lattices, state.control_points))
     # The factor that the solve ends with is of an earlier trust in the priors.
     factor = FrontCholesky(problem.pattern.layout, equations.blocks)
     ratio = prior_cost(problem, state) / max(_effective_dof(problem, factor, prior), 1.0)
@@ -58,21 +49,3 @@ def _effective_dof(problem: Problem, factor: FrontCholesky, prior: Array) -> flo
     signs = np.random.default_rng(problem.settings.seed).choice([-1.0, 1.0], (unknowns, _HUTCHINSON_PROBES))
     carried = factor.solve_many(problem.pattern.matrix(prior) @ signs)
     return float(((signs - carried) * signs).sum() / _HUTCHINSON_PROBES)
-
-
-def prior_cost(problem: Problem, state: State) -> float:
-    """What all priors together cost at the final shape, in chi-square units.
-
-    Parameters
-    ----------
-    problem : what stays the same while the solve runs
-    state : where the solve stands
-    """
-    settings, stiffness = problem.settings, problem.stiffness
-    normal = normals(stiffness.places.displaced(problem.lattices, state.control_points, 3), stiffness.places.outward)[0]
-    change = stiffness.curvature_change(problem.lattices, state.control_points, normal)
-    change -= mean_curvature_change(problem, state.control_points, normal)[:, None, :]
-    bending = float((stiffness.weight * (change**2).sum(axis=2)).sum())
-    cost, trust = cost_of_each_prior(problem, state), state.trust
-    return (bending / (settings.curvature * settings.curvature_length) ** 2
-            + sum(getattr(cost, name) * getattr(trust, name) for name in vars(trust)))

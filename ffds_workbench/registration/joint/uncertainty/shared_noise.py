@@ -9,10 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Array
-from ..assembly import gather
+from ..iteration import State
 from ..linear import FrontCholesky
 from ..problem import Problem
-from ..state import State
 from ..surfaces import normals
 
 _FIELD_COUNT, _WAVE_COUNT = 48, 300
@@ -37,7 +36,7 @@ def shared_errors(problem: Problem, state: State, factor: FrontCholesky) -> Arra
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     rows = weight[:, :, None] * normals(jet, problem.cells.outward)[0]
     table = problem.cells.tables[0]
-    loads = np.stack([gather(problem, np.matmul(table.T, field[:, :, None] * rows)).ravel()
+    loads = np.stack([problem.lattices.sum_of_loads(np.matmul(table.T, field[:, :, None] * rows)).ravel()
                       for field in heights.T.reshape(_FIELD_COUNT, *shape)], axis=1)
     return factor.solve_many(loads).T.reshape(_FIELD_COUNT, -1, 3)
 

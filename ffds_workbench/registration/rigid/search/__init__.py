@@ -2,8 +2,7 @@
 """Global search for a pose: `starts`, `candidates` (many poses improved at once) and `proposals` (the best of them, in
 stages).
 """
-from .candidates import nearest_field
 from .proposals import propose
 from .starts import starts_of
 
-__all__ = ["nearest_field", "propose", "starts_of"]
+__all__ = ["propose", "starts_of"]

@@ -8,8 +8,9 @@ import numpy as np
 
 from ...arrays import Array
 from ..evidence import LooseScan
+from ..model import nearest_field
 from ..search_settings import SearchStage
-from .candidates import Candidates, Probe, distinct, improve, nearest_field, scores
+from .candidates import Candidates, Probe, distinct, improve, scores
 
 
 def propose(scan: LooseScan, starts: Array, stages: Sequence[SearchStage],

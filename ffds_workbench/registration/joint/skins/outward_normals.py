@@ -1,27 +1,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which side of a thin part a scan point shows: a sheet that moved by its own thickness lies where its far side was.
+"""Outward normals of scan points: which side of a thin part each shows.
 
-Neighbouring scan points show the same side, so one sign is wanted per connected piece of the scan; the piece as a whole
-tells it, since no part of a sheet moves without its neighbours. Normals that the scan brings tell it as well. Where
-nothing does, both sides are tried, and what the scan shows of the walls between the skins tells.
+A sheet that moved by its own thickness lies where its far side was. Neighbouring scan points show the same side, so one
+sign is wanted per connected piece of the scan; the piece as a whole tells it, since no part of a sheet moves without
+its neighbours. Normals that the scan brings tell it as well. Where nothing does, both sides are candidates.
 """
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ..arrays import Array, Index
-from .data import correspond, make_frames
-from .problem import Problem
+from ...arrays import Array, Index
+from ..problem import Problem
+from ..surfaces import normals
 from .skin_points import SkinPoints, skin_points
-from .state import State
-from .surfaces import normals
-from .uncertainty import prior_cost
+from .smooth_pieces import smooth_pieces
 
 _TOO_THICK = 3.0
 """In a sheet thicker than this many times the expected displacement, the two sides cannot be confused."""
@@ -34,16 +28,6 @@ _LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
 _DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
 """Both signs are tried where the distances differ by less than the first factor and the piece holds more than the
 second share of the points."""
-_COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
-"""The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
-standard deviations away, 3² in chi-square units."""
-_WALL_POINTS, _WALL_RATIO = 50, 3
-"""Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
-times the other fit's, plus the first."""
-_MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
-"""Else the fit that moved less is right if its movement is below the first factor times the other's. Above it this is a
-guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other moved
-less by the first factor, with such wide bands if it moved less by the second."""
 _AGREEMENT = 0.5
 """Mean of the signs within a smooth piece above which they are trusted."""
 _MUCH_CLOSER = 0.5
@@ -52,9 +36,6 @@ _NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
 """The scan's normals are trusted on a smooth piece if their mean cosine with its own normals is above the first number,
 and at all only if such pieces hold the second share of the scan. Both sides are tried if the points contradict the
 normals on more than the third share."""
-_NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
-"""Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
-and the sine of the step out of their planes is below the third."""
 _FARTHEST_IN_NOISES = 4.0
 """Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
@@ -95,59 +76,24 @@ def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Arra
             if side is sides[0] or (side != sides[0]).any()], bool(told.any())
 
 
-def outward_normals_of_all(problem: Problem, facing: Array | None) -> Array | None:
+def outward_normals_of_all(problem: Problem, outward: Array | None) -> Array | None:
     """Outward unit normals at all scan points, zero where they cannot be told, from those of the sample (m, 3): (n, 3).
 
     None where noise carries no point over the middle of a sheet.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    outward : (m, 3) at the points of the sample, zero where they cannot be told
     """
-    if facing is None or _FARTHEST_IN_NOISES * problem.statistics.noise < 0.5 * _thinnest(problem):
+    if outward is None or _FARTHEST_IN_NOISES * problem.statistics.noise < 0.5 * _thinnest(problem):
         return None
-    return np.asarray(facing[cKDTree(problem.sample).query(problem.scan, workers=-1)[1]])
+    return np.asarray(outward[cKDTree(problem.sample).query(problem.scan, workers=-1)[1]])
 
 
 def _thinnest(problem: Problem) -> float:
     """Thickness in mm of the thinnest sheet, infinite where there is none."""
     return min((t for t in problem.couplings.pairs.solid_thickness if t), default=np.inf)
-
-
-def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
-    """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
-
-    Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
-    did not move far more. Without them the one that moved less is a guess, with bands as wide as the sheet is thick,
-    unless it moved far less.
-    """
-    if len(states) == 1:
-        return states[0]
-    costs, matched, walls, moved = (np.array(item) for item in zip(*(_evidence(problem, state) for state in states),
-                                                                   strict=True))
-    costs = costs + _COST_OF_LOST_POINT * (matched.max() - matched)
-    for own, other in ((0, 1), (1, 0)):
-        if costs[own] < _COST_RATIO * costs[other]:
-            return states[own]
-    for own, other in ((0, 1), (1, 0)):
-        if walls[own] > _WALL_RATIO * walls[other] + _WALL_POINTS:
-            return states[own]
-    thickness = max(problem.couplings.pairs.solid_thickness)
-    if told:
-        chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
-        return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
-    chosen = states[int(np.argmin(moved))]
-    return chosen if moved.min() < _MOVED_CLEARLY_LESS * moved.max() else replace(chosen, unsure=thickness)
-
-
-def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
-    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
-    scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
-    jet = problem.cells.displaced(problem.lattices, state.control_points)
-    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    found = correspond(problem.scan, frames, 4 * problem.lengths.start)
-    walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
-    normal = normals(problem.cells.nominal, problem.cells.outward)[0]
-    moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]
-    misfit = float((state.values.weight * state.values.height**2).sum())
-    return (prior_cost(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
-            float(np.abs(moved).mean()) if len(moved) else np.inf)
 
 
 def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tuple[list[Array], Array]:
@@ -209,25 +155,3 @@ def _signs_of_scan_normals(pieces: tuple[Index, Array], cosine: Array, sure: Arr
     if np.count_nonzero(signs) < _TELLING_NORMALS_SHARE * len(signs) or abs(agreed) < _AGREEMENT:
         return np.zeros(len(signs))
     return np.sign(agreed) * signs
-
-
-def smooth_pieces(points: Array, directions: Array) -> tuple[Index, Array]:
-    """Number of the smooth piece of every point, and ±1 that turns its normal (n, 3) to the piece's one side.
-
-    Every point is two nodes of a graph, one for each sign; a piece is two components of it, or a single one (and then
-    0 instead of ±1) where the surface has but one side.
-    """
-    count = len(points)
-    index = cKDTree(points).query(points, k=min(_NEIGHBOURS, count), workers=-1)[1]
-    start, end = np.repeat(np.arange(count), index.shape[1] - 1), index[:, 1:].ravel()
-    step = points[end] - points[start]
-    step /= np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12)
-    cosine = np.einsum("nx,nx->n", directions[start], directions[end])
-    rise = np.maximum(*(np.abs(np.einsum("nx,nx->n", step, directions[k])) for k in (start, end)))
-    smooth = (np.abs(cosine) > _SMOOTH_COSINE) & (rise < _SMOOTH_RISE)
-    start, end, crossed = start[smooth], end[smooth], (cosine[smooth] < 0) * count
-    rows = np.concatenate([start, start + count])
-    columns = np.concatenate([end + crossed, (end + count + crossed) % (2 * count)])
-    graph = csr_matrix((np.ones(len(rows)), (rows, columns)), shape=(2 * count, 2 * count))
-    plus, minus = connected_components(graph, directed=False)[1].reshape(2, count)
-    return np.unique(np.minimum(plus, minus), return_inverse=True)[1], np.sign(minus - plus).astype(float)

@@ -27,27 +27,36 @@ only falls. Priors and data are in the same unit, so that the inverse of the nor
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.linalg import blas
 
-from ..arrays import Array, Index
-from .data import Borders, CellHeights
-from .priors import COMPONENTS, PriorTrust
-from .problem import Problem, ThicknessRows
-from .surfaces import Jet, cubic, normals
+from ...arrays import Array
+from ..body_field import add_body_rows
+from ..data import Borders, CellHeights
+from ..linear import NormalEquations
+from ..priors import COMPONENTS
+from ..problem import Problem
+from ..surfaces import Jet, cubic, normals
+from .state import State
 
 
-@dataclass(frozen=True)
-class NormalEquations:
-    """A δ = right on the pattern of the problem: ``blocks`` (size, 3, 3), ``right`` (controls, 3)."""
+def add_observations(equations: NormalEquations, problem: Problem, state: State, jet: Jet) -> None:
+    """Add all that the scan says of the current shape ``jet`` of the cells, directly or by way of the body.
 
-    blocks: Array
-    right: Array
+    Parameters
+    ----------
+    equations : that the rows are added to, in place
+    problem : what stays the same while the solve runs
+    state : where the solve stands
+    """
+    _add_heights(equations, problem, jet, state.values)
+    if state.cache.edges.borders is not None:
+        _add_borders(equations, problem, state.control_points, state.cache.edges.borders)
+    if state.cache.body is not None:
+        add_body_rows(equations, problem, state.control_points, state.cache.body, state.trust)
 
 
-def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: CellHeights) -> None:
+def _add_heights(equations: NormalEquations, problem: Problem, jet: Jet, values: CellHeights) -> None:
     """Add the rows of the scan, point to plane: n·(B δ) = height in every cell (Eq. 3 of the paper, along the
     normal)."""
     shape = problem.cells.inside.shape
@@ -58,17 +67,9 @@ def add_data(equations: NormalEquations, problem: Problem, jet: Jet, values: Cel
     normal, weight = normal[used], weight[used]
     for a, b in COMPONENTS:
         products = _table_products(problem, weight * normal[:, :, a] * normal[:, :, b])
-        add_products(equations, problem, a, b, products, used)
+        equations.add_products(a, b, products, used)
     pull = (weight * values.height.reshape(shape)[used])[:, :, None] * normal
-    np.add(equations.right, gather(problem, np.matmul(table.T, pull), used), out=equations.right)
-
-
-def add_products(equations: NormalEquations, problem: Problem, a: int, b: int, products: Array, spans: Index) -> None:
-    """Add products (n, 16, 16) of basis functions on spans (n,) to components ab and ba."""
-    values = problem.pattern.from_spans(products, spans)
-    equations.blocks[:, a, b] += values
-    if a != b:
-        equations.blocks[:, b, a] += values
+    np.add(equations.right, problem.lattices.sum_of_loads(np.matmul(table.T, pull), used), out=equations.right)
 
 
 def _table_products(problem: Problem, weight: Array) -> Array:
@@ -81,15 +82,7 @@ def _table_products(problem: Problem, weight: Array) -> Array:
     return both.transpose(0, 1, 3, 2, 4)
 
 
-def gather(problem: Problem, loads: Array, spans: Index | slice = slice(None)) -> Array:
-    """Sum loads of spans (spans, 16, 3) over the control points: (controls, 3)."""
-    controls = problem.lattices.controls[spans].ravel()
-    flat = loads.reshape(-1, 3)
-    count = problem.lattices.count
-    return np.stack([np.bincount(controls, weights=flat[:, k], minlength=count) for k in range(3)], axis=1)
-
-
-def add_borders(equations: NormalEquations, problem: Problem, control_points: Array, borders: Borders) -> None:
+def _add_borders(equations: NormalEquations, problem: Problem, control_points: Array, borders: Borders) -> None:
     """Add m·(B δ) = offset at the visible borders."""
     samples, m = borders.samples, borders.direction
     order = np.argsort(samples.span, kind="stable")
@@ -100,19 +93,23 @@ def add_borders(equations: NormalEquations, problem: Problem, control_points: Ar
     products = (borders.weight[:, None, None] * basis[:, :, None] * basis[:, None, :])[order]
     for a, b in COMPONENTS:
         values = np.add.reduceat(products * (m[order, a] * m[order, b])[:, None, None], first)
-        add_products(equations, problem, a, b, values, spans)
+        equations.add_products(a, b, values, spans)
     pull = (borders.weight * borders.offset(control_points))[:, None, None] * basis[:, :, None] * m[:, None, :]
-    np.add(equations.right, gather(problem, pull, samples.span), out=equations.right)
+    np.add(equations.right, problem.lattices.sum_of_loads(pull, samples.span), out=equations.right)
 
 
-def shape_equations(problem: Problem, control_points: Array, bending: float, trust: PriorTrust,
-                    strained: Array, across: ThicknessRows) -> NormalEquations:
+def prior_equations(problem: Problem, state: State, bending: float) -> NormalEquations:
     """All priors at the current shape with the trust they have; ``bending`` multiplies the weight of bending.
 
-    ``strained`` is `strain_blocks` and ``across`` tells along which normals thickness is measured; both may be those of
-    a shape near by, the first without any change of what is solved.
+    The cached matrices may be those of a shape near by, that of the strain without any change of what is solved.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    state : where the solve stands
     """
-    settings, stiffness = problem.settings, problem.stiffness
+    settings, stiffness, trust, control_points = problem.settings, problem.stiffness, state.trust, state.control_points
+    strained, across = state.cache.matrices.strain, state.cache.matrices.thickness
     weight = bending / (settings.curvature * settings.curvature_length) ** 2
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
@@ -123,15 +120,16 @@ def shape_equations(problem: Problem, control_points: Array, bending: float, tru
         _add_scaled(blocks, strained, skin if is_skin else wall, first, last)
     bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
-    right = (weight * gather(problem, load)
+    right = (weight * problem.lattices.sum_of_loads(load)
              + problem.couplings.thickness_load(control_points, trust.thickness, trust.shear, across.normal)
              + problem.couplings.dihedral_load(control_points, trust.dihedral)
              - problem.couplings.scalar @ control_points)
-    strain = stiffness.strain(problem.lattices, control_points, normal, problem.sheet_of_span)
+    sheet = problem.sheet_of_span
+    strain = stiffness.strain(problem.lattices, control_points, normal, sheet)
     stress = (np.where(problem.skin, skin, wall)[:, None] * stiffness.weight)[..., None] * strain
-    right -= gather(problem, stiffness.strain_load(problem.lattices, control_points, normal, problem.sheet_of_span,
-                                                   stress))
-    return NormalEquations(blocks, right)
+    load = stiffness.strain_load(problem.lattices, control_points, normal, sheet, stress)
+    right -= problem.lattices.sum_of_loads(load)
+    return NormalEquations(problem.pattern, blocks, right)
 
 
 def _add_scaled(blocks: Array, others: Array, scale: float, first: int, last: int) -> None:
@@ -139,24 +137,15 @@ def _add_scaled(blocks: Array, others: Array, scale: float, first: int, last: in
     blas.daxpy(others.ravel(), blocks.ravel(), n=9 * (last - first), a=scale, offx=9 * first, offy=9 * first)
 
 
-def strain_blocks(problem: Problem, control_points: Array) -> Array:
-    """Normal matrix of the strain at the current shape, without its weights: (size, 3, 3)."""
-    stiffness = problem.stiffness
-    normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
-    rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
-    flat = rows.reshape(len(rows), -1, 48)
-    weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
-    blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
-    result = np.empty((problem.pattern.size, 3, 3))
-    for a, b in COMPONENTS:
-        result[:, a, b] = problem.pattern.from_spans(blocks[:, a, :, b])
-        if a != b:
-            result[:, b, a] = problem.pattern.from_spans(blocks[:, b, :, a])
-    return result
-
-
 def mean_curvature_change(problem: Problem, control_points: Array, normal: Array) -> Array:
-    """Mean change of curvature of the face that a span belongs to: (spans, 3). A sheet rolled as a whole is smooth."""
+    """Mean change of curvature of the face that a span belongs to: (spans, 3). A sheet rolled as a whole is smooth.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    control_points : (controls, 3) of the displacement in mm
+    normal : (spans, k, 3) current one at the Gauss places
+    """
     face, area = problem.lattices.face_of_span, problem.stiffness.area
     change = np.einsum("sk,skp->sp", area, problem.stiffness.curvature_change(problem.lattices, control_points, normal))
     whole = np.maximum(np.bincount(face, weights=area.sum(axis=1)), 1e-12)

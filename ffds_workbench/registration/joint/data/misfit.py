@@ -9,15 +9,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..data import CellHeights, patch_sums
-from ..problem import Problem
-from ..surfaces import by_face
+from ..surfaces import Lattices, SpanGrid, by_face
+from .cell_heights import CellHeights
+from .scatter import patch_sums
 
 _POOLING_RADIUS = 15.0
 """Spans this near to each other in mm are judged together: one alone holds too few points to tell."""
 
 
-def misfit(problem: Problem, values: CellHeights) -> Array:
+def misfit(values: CellHeights, lattices: Lattices, cells: SpanGrid) -> Array:
     """Variance of the misfit around every span, (spans,) in mm²: of its mean, and of what varies from patch to patch.
 
     Both are what is left when the expectation from noise is taken off (the moment estimator of DerSimonian and Laird,
@@ -25,14 +25,15 @@ def misfit(problem: Problem, values: CellHeights) -> Array:
 
     Parameters
     ----------
-    problem : what stays the same while the solve runs
     values : heights of the scan, cell by cell
+    lattices : of all faces
+    cells : the raster over them
     """
-    height, weight = values.height.reshape(problem.distance.shape), values.weight.reshape(problem.distance.shape)
+    height, weight = (cell.reshape(cells.inside.shape) for cell in (values.height, values.weight))
     pull, total = patch_sums(height * weight), patch_sums(weight)
     seen = total > 0
     excess = np.where(seen, pull**2 / np.where(seen, total, 1.0) - 1.0, 0.0).sum(axis=(1, 2))
-    place = _span_middles(problem)
+    place = _span_middles(lattices, cells)
     near = cKDTree(place).query_ball_point(place, _POOLING_RADIUS, workers=-1)
     row, column = np.repeat(np.arange(len(place)), [len(item) for item in near]), np.concatenate(near).astype(np.intp)
     around = [np.bincount(row, item[column], len(place))
@@ -43,11 +44,19 @@ def misfit(problem: Problem, values: CellHeights) -> Array:
     return np.where(around[0] > 0, mean + varying, 0.0)
 
 
-def nearest_spans(problem: Problem, face: Index, position: Array) -> Index:
-    """The span of faces (n,) whose middle is nearest to nominal places (n, 3): (n,)."""
-    return cKDTree(_span_middles(problem)).query(by_face(position, face), workers=-1)[1]
+def nearest_spans(lattices: Lattices, cells: SpanGrid, face: Index, position: Array) -> Index:
+    """The span of faces (n,) whose middle is nearest to nominal places (n, 3) in mm: (n,).
+
+    Parameters
+    ----------
+    lattices : of all faces
+    cells : the raster over them
+    face : (n,) number of the face
+    position : (n, 3) in mm
+    """
+    return cKDTree(_span_middles(lattices, cells)).query(by_face(position, face), workers=-1)[1]
 
 
-def _span_middles(problem: Problem) -> Array:
+def _span_middles(lattices: Lattices, cells: SpanGrid) -> Array:
     """Middles of the spans `by_face`: (spans, 4)."""
-    return by_face(problem.cells.nominal.position.mean(axis=1), problem.lattices.face_of_span)
+    return by_face(cells.nominal.position.mean(axis=1), lattices.face_of_span)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import blas
 
-from ..arrays import Array, Index
-from .linear import Pattern
-from .priors import Couplings, Stiffness
-from .priors.stiffness import COMPONENTS, SLIDING
+from ...arrays import Array, Index
+from ..linear import Pattern
+from .couplings import Couplings
+from .stiffness import COMPONENTS, SLIDING, Stiffness
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,14 @@ class ConstantRows:
 
 
 def constant_rows(pattern: Pattern, stiffness: Stiffness, couplings: Couplings) -> ConstantRows:
-    """All of them, for a part."""
+    """All of them, for a part.
+
+    Parameters
+    ----------
+    pattern : of the normal matrix
+    stiffness : of its faces
+    couplings : of its faces with each other
+    """
     every, along = stiffness.bending_blocks()
     across = np.empty((pattern.size, 3, 3))
     for number, (a, b) in enumerate(COMPONENTS):

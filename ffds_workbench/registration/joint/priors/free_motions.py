@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from ..arrays import Array, Index
-from .surfaces import JointPart, Lattices, SpanGrid, normals
+from ...arrays import Array, Index
+from ..surfaces import JointPart, Lattices, SpanGrid, normals
 
 _SLIDES = 1e-6
 """Mean square of the sine between a motion and the surface, below which it slides in itself (unit: a thousandth)."""
@@ -33,8 +33,13 @@ class FreeMotions:
     texts: tuple[str, ...]
 
     def hold(self, control_points: Array, step: Array, response: Array) -> Array:
-        """The ``step`` (controls, 3) without what moves along the motions; ``response`` (k, controls, 3) are the steps
-        that pulls along them cause."""
+        """The step without what moves along the motions: (controls, 3).
+
+        Parameters
+        ----------
+        control_points, step : (controls, 3) in mm, before the step
+        response : (k, controls, 3) steps that pulls along the motions cause
+        """
         along = np.einsum("kcx,cx->k", self.rows, control_points + step)
         pulled = np.einsum("kcx,lcx->kl", self.rows, response)
         return np.asarray(step - np.einsum("k,kcx->cx", np.linalg.solve(pulled, along), response))
@@ -46,6 +51,9 @@ def find_free_motions(part: JointPart, lattices: Lattices, cells: SpanGrid, area
 
     Parameters
     ----------
+    part : the faces, edges and solids
+    lattices : of all faces
+    cells : the raster over them
     area : (spans, k) of the cells in mm²
     coupled : (controls, controls) non-zero where control points are coupled
     """

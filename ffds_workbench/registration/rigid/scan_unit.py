@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether a model and a scan that should lie on it are in different units: by which factor, told by size and place.
+"""The unit of a scan.
+
+Which ones it may be in, by its size against the part's (`plausible_scales`, before it is aligned); and whether it is in
+another than the model that it should lie on, by its size and its place (`unit_mismatch`).
 
 A partial view and one with a table beside the part differ from the part in size as a wrong unit does. So the places
 count first: where the scan lies on the part as it is, nothing is said, unless another unit makes it fill the part.
@@ -13,8 +16,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays import Array
-from .unit_guess import SCALES
+from .settings import UnitSettings
 
+SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
+"""Factors to mm that scans come in beside 1; each may also be off the other way round."""
 FACTORS = (*SCALES.values(), *(1.0 / factor for factor in SCALES.values()))
 """What a scan may have to be multiplied by."""
 Surface = Callable[[], tuple[Array, Array]]
@@ -91,6 +96,32 @@ def box_of(points: Array) -> tuple[Array, Array, float]:
     some = points[:: max(1, len(points) // 20_000)]
     low, high = np.quantile(some, [0.02, 0.98], axis=0)
     return low, high, float(np.linalg.norm(high - low))
+
+
+def plausible_scales(scan: Array, size: float, settings: UnitSettings | None = None) -> list[float]:
+    """Factors to try on the scan's coordinates, the likeliest first.
+
+    Parameters
+    ----------
+    scan : (n, 3)
+    size : diagonal of the part in mm
+    settings : ratios of sizes; None for the defaults
+    """
+    settings = settings or UnitSettings()
+    ratio = max(box_of(scan)[2], 1e-300) / size
+    possible = [f for f in (1.0, *FACTORS) if settings.possible[0] < ratio * f < settings.possible[1]]
+    trusted = settings.trusted[0] < ratio < settings.trusted[1]
+    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:settings.tried]
+
+
+def unit_name(scale: float) -> str:
+    """What a factor to mm is called: "m" for 1000, "mm" for 1; "mm / 25.4" for the other way round."""
+    for name, factor in SCALES.items():
+        if np.isclose(scale, factor):
+            return name
+        if np.isclose(scale * factor, 1.0):
+            return f"mm / {factor:g}"
+    return "mm" if np.isclose(scale, 1.0) else f"{scale:g} mm"
 
 
 def unit_mismatch(scan: Array, low: Array, high: Array, surface: Surface) -> float | None:

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...errors import RefusedError
-from ..arrays import Array, Index
-from ..robust_weights import robust_sigma
-from .data import Correspondence, ScanStatistics, correspond, make_frames
-from .surfaces import Lattices, SpanGrid, by_face
+from ....errors import RefusedError
+from ...arrays import Array, Index
+from ...robust_weights import robust_sigma
+from ..surfaces import Lattices, SpanGrid, by_face
+from .correspondence import Correspondence, correspond, make_frames
+from .scan_statistics import ScanStatistics
 
 _TYPICAL, _SEEN = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
@@ -66,6 +67,14 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, distance: Array, sample: A
                  ) -> tuple[Lengths, Array]:
     """The lengths, for cells with their ``distance`` (spans, k) from the border of their face, and how far the points
     of the sample lie from the nominal part, infinite beyond its size: (n,).
+
+    Parameters
+    ----------
+    lattices : of all faces
+    cells : the raster over them
+    distance : (spans, k) of the cells from the border of their face in mm, negative outside
+    sample : (n, 3) scan points in mm
+    statistics : density and noise of the scan
 
     Raises
     ------

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..arrays import Array, Index
-from ..normal_sides import orient_normals
-from .data import ScanStatistics
+from ...arrays import Array, Index
+from ...normal_sides import orient_normals
+from ..data import ScanStatistics
 
 _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100
 """Neighbours that a plane is put through."""

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which skin of a sheet the scan shows, where it was fitted to either: what is seen of the walls between them tells,
+and what the fits cost.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..data import correspond, make_frames
+from ..iteration import State
+from ..prior_trust import prior_cost
+from ..problem import Problem
+from ..surfaces import normals
+
+_COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
+"""The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
+standard deviations away, 3² in chi-square units."""
+_WALL_POINTS, _WALL_RATIO = 50, 3
+"""Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
+times the other fit's, plus the first."""
+_MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
+"""Else the fit that moved less is right if its movement is below the first factor times the other's. Above it this is a
+guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other moved
+less by the first factor, with such wide bands if it moved less by the second."""
+
+
+def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
+    """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
+
+    Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
+    did not move far more. Without them the one that moved less is a guess, with bands as wide as the sheet is thick,
+    unless it moved far less.
+
+    Parameters
+    ----------
+    problem : what stays the same while the solve runs
+    states : the fits, one or two
+    told : whether the scan's normals tell the side of the first
+    """
+    if len(states) == 1:
+        return states[0]
+    costs, matched, walls, moved = (np.array(item) for item in zip(*(_evidence(problem, state) for state in states),
+                                                                   strict=True))
+    costs = costs + _COST_OF_LOST_POINT * (matched.max() - matched)
+    for own, other in ((0, 1), (1, 0)):
+        if costs[own] < _COST_RATIO * costs[other]:
+            return states[own]
+    for own, other in ((0, 1), (1, 0)):
+        if walls[own] > _WALL_RATIO * walls[other] + _WALL_POINTS:
+            return states[own]
+    thickness = max(problem.couplings.pairs.solid_thickness)
+    if told:
+        chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
+        return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
+    chosen = states[int(np.argmin(moved))]
+    return chosen if moved.min() < _MOVED_CLEARLY_LESS * moved.max() else replace(chosen, unsure=thickness)
+
+
+def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
+    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
+    scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
+    jet = problem.cells.displaced(problem.lattices, state.control_points)
+    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    found = correspond(problem.scan, frames, 4 * problem.lengths.start)
+    walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
+    normal = normals(problem.cells.nominal, problem.cells.outward)[0]
+    moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]
+    misfit = float((state.values.weight * state.values.height**2).sum())
+    return (prior_cost(problem, state) + misfit, float(state.values.count.sum()), int(walls.sum()),
+            float(np.abs(moved).mean()) if len(moved) else np.inf)
