@@ -10,6 +10,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import Part
@@ -17,6 +18,9 @@ import Part
 from ..registration.arrays import Array
 
 Incidence = tuple[tuple[int, ...], ...]
+
+_SAME_PARAMETERS = 1e-9
+"""Two pcurves of an edge are one below this difference: those of a seam are a period of the surface apart."""
 
 
 class _Numbering:
@@ -155,23 +159,38 @@ def points_on_edge(edge: Part.Edge, fractions: Array) -> Array:
     if edge.Degenerated:
         return np.repeat([tuple(edge.Vertexes[0].Point)], len(fractions), axis=0)
     first, last = edge.ParameterRange
-    value = edge.Curve.value
-    return np.array([tuple(value(t)) for t in (first + (last - first) * fractions).tolist()])
+    return _on_curve(edge.Curve, first, last, fractions)
+
+
+def _on_curve(curve: Any, first: float, last: float, fractions: Array) -> Array:
+    """Points of a curve at fractions 0…1 from a first parameter to a last one, (n, 3), or (n, 2) of a pcurve; of a line
+    from its ends."""
+    if isinstance(curve, (Part.Line, Part.Geom2d.Line2d)):
+        start, end = _values(curve, [first, last])
+        return np.where(fractions[:, None] == 1.0, end, start + fractions[:, None] * (end - start))
+    return _values(curve, (first + (last - first) * fractions).tolist())
+
+
+def _values(curve: Any, parameters: list[float]) -> Array:
+    points = [curve.value(t) for t in parameters]
+    if isinstance(curve, Part.Geom2d.Curve2d):
+        return np.array([(point.x, point.y) for point in points])
+    return np.array([tuple(point) for point in points])
 
 
 def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[EdgeTrace]:
     """The traces of an edge on a face at fractions 0…1 of its range: one, or two where it is a seam."""
-    points = points_on_edge(edge, fractions)
+    points, some = points_on_edge(edge, fractions), [0, len(fractions) // 2, -1]
+    few = fractions[some]
     traces: dict[str, EdgeTrace] = {}
     for side in (edge, edge.reversed()):
         pcurve = face.curveOnSurface(side)
         if pcurve is None:
             continue
         curve, first, last = pcurve[:3]
-        values = [curve.value(t) for t in (first + (last - first) * fractions).tolist()]
-        uv = np.array([(value.x, value.y) for value in values])
-        if not traces or np.abs(uv - traces[edge.Orientation].uv).max() > 1e-9:
-            traces[side.Orientation] = EdgeTrace(points, uv)
+        known = traces.get(edge.Orientation)
+        if known is None or np.abs(_on_curve(curve, first, last, few) - known.uv[some]).max() > _SAME_PARAMETERS:
+            traces[side.Orientation] = EdgeTrace(points, _on_curve(curve, first, last, fractions))
     if len(traces) == 2:
         # A face cut out of a closed one may have kept the far curve of a seam that it no longer meets twice.
         used = {use.Orientation for wire in face.Wires for use in wire.childShapes() if use.isSame(edge)}

@@ -22,3 +22,24 @@ def ball() -> FaceGeometry:
                          np.linspace(-pole, pole, 9)[1:-1], 4e-6)
     trim = np.array([[0, -pole], [turn, -pole], [turn, pole], [0, pole]])
     return FaceGeometry("Ball", "Sphere", spline, (trim,), 1)
+
+
+@pytest.fixture(scope="session")
+def fit_control_points():
+    """A function that gives the control points of all faces, (controls, 3) in mm, whose displacement follows a field in
+    space, by least squares at dense places."""
+
+    def fit(problem, field) -> np.ndarray:
+        lattices, points = problem.lattices, np.zeros((problem.lattices.count, 3))
+        for index, face in enumerate(problem.part.faces):
+            u0, u1, v0, v1 = face.surface.range
+            uv = np.stack(np.meshgrid(np.linspace(u0, u1, 60), np.linspace(v0, v1, 60), indexing="ij"), -1)
+            uv = uv.reshape(-1, 2)
+            spans, local = lattices.faces[index].locate(uv)
+            rows = np.zeros((len(uv), lattices.count))
+            np.put_along_axis(rows, lattices.controls[spans], lattices.weights(spans, local, 0, 0), axis=1)
+            own = np.flatnonzero(lattices.face_of_control == index)
+            points[own] = np.linalg.lstsq(rows[:, own], field(face.surface(uv)), rcond=None)[0]
+        return points
+
+    return fit

@@ -14,6 +14,7 @@ from ffds_workbench.registration.joint.data.borders import find_borders, find_ne
 from ffds_workbench.registration.joint.data.scan_statistics import scan_statistics
 from ffds_workbench.registration.joint.linear.cholesky import FrontCholesky, FrontLayout
 from ffds_workbench.registration.joint.linear.dissection import dissect
+from ffds_workbench.registration.joint.linear.system import Pattern
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
@@ -118,12 +119,12 @@ def test_fronts_solve_and_invert_like_a_dense_matrix():
     near = np.abs(place[:, None] - place[None]).max(axis=2) <= 2
     graph = csr_matrix(near.astype(np.int32))
     random = np.random.default_rng(5)
-    rows, columns = np.nonzero(near)
+    rows, columns = np.nonzero(np.triu(near))
     dense = np.zeros((len(place), 3, len(place), 3))
     dense[rows, :, columns, :] = random.normal(size=(len(rows), 3, 3))
     dense = dense.reshape(3 * len(place), -1)
     dense = dense + dense.T + 80 * np.eye(len(dense))
-    blocks = dense.reshape(len(place), 3, len(place), 3)[rows, :, columns, :]
+    blocks = dense.reshape(len(place), 3, len(place), 3)[rows, :, columns, :].transpose(1, 2, 0)
     fronts = dissect(graph, place)
     assert sorted(np.concatenate([front.own for front in fronts])) == list(range(len(place)))
     assert len(fronts) > 2
@@ -133,7 +134,31 @@ def test_fronts_solve_and_invert_like_a_dense_matrix():
     several = random.normal(size=(len(dense), 3))
     assert factor.solve_many(several) == pytest.approx(np.linalg.solve(dense, several), abs=1e-10)
     inverse = np.linalg.inv(dense).reshape(len(place), 3, len(place), 3)[rows, :, columns, :]
-    assert factor.inverse_blocks() == pytest.approx(inverse, abs=1e-10)
+    assert factor.inverse_blocks() == pytest.approx(inverse.transpose(1, 2, 0), abs=1e-10)
+
+
+def test_half_a_pattern_holds_the_whole_matrix(lattices):
+    """Of a cylinder, which closes on itself: there the first of two control points of a span may have the larger
+    number."""
+    random = np.random.default_rng(6)
+    spans, size = len(lattices.controls), 3 * lattices.count
+    pattern = Pattern(lattices, [], random.normal(size=(lattices.count, 3)))
+    each = random.normal(size=(spans, 48, 48))
+    each += each.swapaxes(1, 2)
+    rows = (3 * lattices.controls[:, None] + np.arange(3)[:, None]).reshape(spans, 48)
+    dense = np.zeros((size, size))
+    np.add.at(dense, (rows[:, :, None], rows[:, None]), each)
+    blocks = pattern.from_span_blocks(each.reshape(spans, 3, 16, 3, 16))
+    for vectors in (random.normal(size=size), random.normal(size=(size, 4))):
+        assert pattern.product(blocks)(vectors) == pytest.approx(dense @ vectors, abs=1e-10)
+    assert pattern.of_spans(blocks, np.arange(spans)).transpose(0, 3, 1, 4, 2).reshape(each.shape) == pytest.approx(
+        dense[rows[:, :, None], rows[:, None]])
+    scalar = csr_matrix(dense[::3, ::3])
+    assert pattern.from_scalar(scalar) == pytest.approx(blocks[0, 0])
+    some = pattern.from_vector(csr_matrix(dense).tobsr((3, 3)))
+    again = np.zeros_like(blocks)
+    some.add_to(again, 1.0)
+    assert again == pytest.approx(blocks)
 
 
 def test_poles_move_as_one_point():

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import bsr_matrix, csr_matrix
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
@@ -95,12 +94,9 @@ class Problem:
         return self.sheet_of_span > 0
 
     @cached_property
-    def skin_runs(self) -> list[tuple[bool, int, int]]:
-        """Blocks of the pattern from a first to a last one that belong to skins of sheets, or to other faces."""
-        skin = (self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]]
-        starts = np.flatnonzero(np.diff(skin, prepend=~skin[:1]))
-        ends = np.append(starts[1:], len(skin))
-        return list(zip(skin[starts].tolist(), starts.tolist(), ends.tolist(), strict=True))
+    def skin_of_block(self) -> NDArray[np.bool_]:
+        """Whether the rows of the pattern's blocks belong to the skin of a sheet: (size,)."""
+        return np.asarray((self.couplings.pairs.of_face > 0)[self.lattices.face_of_control[self.pattern.rows]])
 
     def isometry_weights(self, trust: PriorTrust) -> tuple[float, float]:
         """Weight of the strain per mm² of skins and of walls, which may stretch more."""
@@ -136,14 +132,14 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     lengths, apart = find_lengths(lattices, cells, distance, sample, statistics)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells), settings,
                                len(scan) / lengths.start**2)
-    coupled = couplings.scalar, couplings.shear, _nodes_of(couplings.dihedral), _nodes_of(couplings.smooth)
-    pattern = Pattern(lattices, coupled, _positions(lattices, cells))
+    others = couplings.matrices()
+    pattern = Pattern(lattices, [couplings.scalar, *others.graphs], _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
     margin = trim_margin(lattices, distance, max(_TRIM_MARGIN, lengths.noise))
     sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
-                   pattern, constant_rows(pattern, stiffness, couplings), sides, margin, lengths,
+                   pattern, constant_rows(pattern, stiffness, couplings.scalar, others), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), apart,
                    None if scan_normals is None else scan_normals[pick])
 
@@ -160,9 +156,3 @@ def _positions(lattices: Lattices, cells: SpanGrid) -> Array:
     controls = lattices.controls.ravel()
     total = np.stack([np.bincount(controls, weights=middle[:, k], minlength=lattices.count) for k in range(3)], axis=1)
     return total / np.bincount(controls, minlength=lattices.count)[:, None]
-
-
-def _nodes_of(matrix: bsr_matrix) -> csr_matrix:
-    """Scalar pattern of a matrix of 3 × 3 blocks, one per pair of control points."""
-    n = matrix.shape[0] // 3
-    return csr_matrix((np.ones(len(matrix.indices)), matrix.indices, matrix.indptr), shape=(n, n))

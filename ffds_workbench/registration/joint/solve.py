@@ -55,17 +55,13 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     settings = settings or JointSettings()
     report = progress or (lambda stage, share: None)
     problem = make_problem(part, scan, settings, {}, scan_normals)
-    state = start(problem)
-    steps = stages(settings.schedule, state.reach)
+    steps = stages(settings.schedule, problem.lengths.reach)
     report("joint solve", 0.0)
-    sides, told = candidate_outward_normals(problem, state.reach)
-    state = choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, outward=outward), len(sides) > 1)
-                                  for outward in sides], told)
-    stiff, state = state, _run_soft_stages(problem, steps, state, report)
+    state = _run_soft_stages(problem, steps, _stiff_shape(problem, steps), report)
     torn = torn_faces(problem, state)
     if torn:
         problem = problem.without_points_on(torn)
-        state = _run_soft_stages(problem, steps, stiff, report)
+        state = _run_soft_stages(problem, steps, _stiff_shape(problem, steps), report)
     finer = faces_to_refine(problem, state) if settings.refine else {}
     if finer:
         report("finer lattice", 1.0)
@@ -77,6 +73,14 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     state = replace(state, control_points=close_seams(part, problem.lattices, state.control_points))
     refuse_unsound(problem, state)
     return replace(summarise(problem, state), torn=tuple(part.faces[index].name for index in torn))
+
+
+def _stiff_shape(problem: Problem, steps: tuple[Stage, ...]) -> State:
+    """The end of the stiff stages, with the right skin of a sheet on the scan."""
+    state = start(problem)
+    sides, told = candidate_outward_normals(problem, state.reach)
+    return choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, outward=outward), len(sides) > 1)
+                                 for outward in sides], told)
 
 
 def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
@@ -102,6 +106,7 @@ def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):
             return unstretched
+        del unstretched  # its matrices take much memory
     return run_stage(problem, stage, state)
 
 

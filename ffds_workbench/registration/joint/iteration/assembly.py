@@ -27,8 +27,9 @@ only falls. Priors and data are in the same unit, so that the inverse of the nor
 """
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
-from scipy.linalg import blas
 
 from ...arrays import Array
 from ..body_field import add_body_rows
@@ -114,10 +115,11 @@ def prior_equations(problem: Problem, state: State, bending: float) -> NormalEqu
     jet = stiffness.places.displaced(problem.lattices, control_points, 3)
     normal = normals(jet, stiffness.places.outward)[0]
     blocks = problem.constant.weighted(weight, trust.sliding, trust.shear, trust.dihedral)
-    _add_scaled(blocks, across.blocks, trust.thickness - trust.shear, 0, len(blocks))
+    across.blocks.add_to(blocks, trust.thickness - trust.shear)
     skin, wall = problem.isometry_weights(trust)
-    for is_skin, first, last in problem.skin_runs:
-        _add_scaled(blocks, strained, skin if is_skin else wall, first, last)
+    isometry = np.where(problem.skin_of_block, skin, wall)
+    for a, b in product(range(3), repeat=2):
+        blocks[a, b] += isometry * strained[a, b]
     bent = mean_curvature_change(problem, control_points, normal) if bending == 1 else np.zeros((len(normal), 3))
     load = stiffness.bending_load(control_points, problem.lattices, normal, bent, trust.sliding)
     right = (weight * problem.lattices.sum_of_loads(load)
@@ -130,11 +132,6 @@ def prior_equations(problem: Problem, state: State, bending: float) -> NormalEqu
     load = stiffness.strain_load(problem.lattices, control_points, normal, sheet, stress)
     right -= problem.lattices.sum_of_loads(load)
     return NormalEquations(problem.pattern, blocks, right)
-
-
-def _add_scaled(blocks: Array, others: Array, scale: float, first: int, last: int) -> None:
-    """Add a multiple of some of other blocks to blocks (n, 3, 3), in place: fresh memory would take longer."""
-    blas.daxpy(others.ravel(), blocks.ravel(), n=9 * (last - first), a=scale, offx=9 * first, offy=9 * first)
 
 
 def mean_curvature_change(problem: Problem, control_points: Array, normal: Array) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import Array
-from ..priors import COMPONENTS
+from ..linear import SomeBlocks
 from ..problem import Problem
 from ..surfaces import normals
 
@@ -21,10 +21,10 @@ thousand."""
 
 @dataclass(frozen=True)
 class ThicknessRows:
-    """The thickness of sheets along normals (pairs, 3): ``blocks`` (size, 3, 3) are its rows on the pattern."""
+    """The thickness of sheets along normals (pairs, 3), and the blocks that its rows make."""
 
     normal: Array
-    blocks: Array
+    blocks: SomeBlocks
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class ShapeMatrices:
 
     Attributes
     ----------
-    strain : (size, 3, 3) on the pattern, without its weights
+    strain : (3, 3, size) on the pattern, without its weights
     thickness : along which normals thickness is measured
     moved : how far the shape has moved since ``strain`` was found, in mm
 
@@ -72,16 +72,11 @@ def _thickness_rows(problem: Problem, control_points: Array, known: ThicknessRow
 
 
 def _strain_blocks(problem: Problem, control_points: Array) -> Array:
-    """Normal matrix of the strain at the current shape, without its weights: (size, 3, 3)."""
+    """Normal matrix of the strain at the current shape, without its weights: (3, 3, size)."""
     stiffness = problem.stiffness
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
     rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
     flat = rows.reshape(len(rows), -1, 48)
     weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
-    blocks = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
-    result = np.empty((problem.pattern.size, 3, 3))
-    for a, b in COMPONENTS:
-        result[:, a, b] = problem.pattern.from_spans(blocks[:, a, :, b])
-        if a != b:
-            result[:, b, a] = problem.pattern.from_spans(blocks[:, b, :, a])
-    return result
+    matrices = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
+    return problem.pattern.from_span_blocks(matrices)

@@ -6,6 +6,6 @@ takes).
 from .cholesky import FrontCholesky
 from .memory import refuse_too_large
 from .normal_equations import NormalEquations
-from .system import Pattern, solve_normal_equations
+from .system import Pattern, SomeBlocks, solve_normal_equations
 
-__all__ = ["FrontCholesky", "NormalEquations", "Pattern", "refuse_too_large", "solve_normal_equations"]
+__all__ = ["FrontCholesky", "NormalEquations", "Pattern", "SomeBlocks", "refuse_too_large", "solve_normal_equations"]

@@ -7,6 +7,8 @@ The inverse is computed on the fronts alone, from the roots down (selected inver
 """
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from scipy.linalg import blas, lapack
 
@@ -21,7 +23,8 @@ class FrontLayout:
     the other, column by column. Nothing below the diagonal is ever looked at."""
 
     def __init__(self, fronts: list[Front], rows: Index, columns: Index) -> None:
-        """``rows`` and ``columns`` (blocks,) are the nodes of every block of the pattern, row by row."""
+        """``rows`` and ``columns`` (blocks,) are the nodes of every block of the pattern; of a block and its transpose
+        it has one."""
         self.fronts = fronts
         self.own = np.array([3 * len(f.own) for f in fronts])
         self.sizes = self.own + np.array([3 * len(f.border) for f in fronts])
@@ -34,28 +37,22 @@ class FrontLayout:
         for number, front in enumerate(fronts):
             front_of[front.own] = number
         turn[np.concatenate([f.own for f in fronts])] = np.arange(len(turn))
-        self.upper = np.flatnonzero(turn[rows] <= turn[columns])
-        self.columns = columns
-        rows, columns = rows[self.upper], columns[self.upper]
+        turned = turn[rows] > turn[columns]
+        rows, columns = np.where(turned, columns, rows), np.where(turned, rows, columns)
         home = front_of[rows]
         order = np.argsort(home, kind="stable")
         bounds = np.searchsorted(home[order], np.arange(len(fronts) + 1))
-        target = np.empty(len(rows), dtype=np.intp)
+        self.first = np.empty(len(rows), dtype=np.intp)
         for number, front in enumerate(fronts):
             place[front.own] = np.arange(len(front.own))
             place[front.border] = len(front.own) + np.arange(len(front.border))
             here = order[bounds[number] : bounds[number + 1]]
-            target[here] = self.offset[number] + 3 * (place[rows[here]] + place[columns[here]] * self.own[number])
-        inner = np.arange(3)[:, None] + np.arange(3) * self.own[home][:, None, None]
-        self.target = (target[:, None, None] + inner).ravel()
+            self.first[here] = self.offset[number] + 3 * (place[rows[here]] + place[columns[here]] * self.own[number])
+        self.down, self.right = np.where(turned, self.own[home], 1), np.where(turned, 1, self.own[home])
 
-    def blocks(self, flat: Array) -> Array:
-        """Symmetric blocks of the pattern (n, 3, 3) from the rows of all fronts."""
-        upper = flat[self.target].reshape(-1, 3, 3)
-        result = np.empty((len(self.columns), 3, 3))
-        result[np.argsort(self.columns, kind="stable")[self.upper]] = upper.swapaxes(1, 2)
-        result[self.upper] = upper
-        return result
+    def places(self, a: int, b: int) -> Index:
+        """Where the component ``a``, ``b`` of every block lies in the rows of all fronts: (blocks,)."""
+        return self.first + a * self.down + b * self.right
 
     def rows(self, flat: Array, number: int) -> Array:
         """The rows of one front's own nodes as a view, (k, k + b) in Fortran's order."""
@@ -68,7 +65,7 @@ class FrontCholesky:
     flat: Array
 
     def __init__(self, layout: FrontLayout, blocks: Array, earlier: FrontCholesky | None = None) -> None:
-        """Factor the matrix with the pattern's ``blocks`` (n, 3, 3).
+        """Factor the matrix with the pattern's ``blocks`` (3, 3, n).
 
         The memory of an ``earlier`` factor of the same layout is used again: it is one of this matrix from then on.
 
@@ -79,7 +76,8 @@ class FrontCholesky:
         self.layout = layout
         self.flat = flat = np.empty(layout.offset[-1]) if earlier is None else earlier.flat
         flat[:] = 0.0
-        flat[layout.target] = blocks[layout.upper].ravel()
+        for a, b in product(range(3), repeat=2):
+            flat[layout.places(a, b)] = blocks[a, b]
         self.own: list[Array] = []
         self.border: list[Array] = []
         rest: dict[int, Array] = {}
@@ -131,7 +129,7 @@ class FrontCholesky:
         return x
 
     def inverse_blocks(self) -> Array:
-        """The blocks of A⁻¹ on the pattern, (n, 3, 3). They take the place of the factor, which is none any more."""
+        """The blocks of A⁻¹ on the pattern, (3, 3, n). They take the place of the factor, which is none any more."""
         layout, flat = self.layout, self.flat
         last_child = {front.parent: number for number, front in reversed(list(enumerate(layout.fronts)))}
         beyond: dict[int, Array] = {}
@@ -149,7 +147,7 @@ class FrontCholesky:
                     beyond[number] = border
                 if last_child[parent] == number:
                     beyond.pop(parent, None)
-        return layout.blocks(flat)
+        return np.array([[flat[layout.places(a, b)] for b in range(3)] for a in range(3)])
 
     def _inverse_beyond(self, flat: Array, number: int, beyond_parent: Array | None) -> Array:
         """The inverse among the border of a front, (b, b), on and above the diagonal, from that of its parent."""

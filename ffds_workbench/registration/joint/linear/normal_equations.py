@@ -15,7 +15,7 @@ class NormalEquations:
     Attributes
     ----------
     pattern : where the blocks stand
-    blocks : (size, 3, 3) of A on the pattern
+    blocks : (3, 3, size) of A on the pattern
     right : (controls, 3)
     """
 
@@ -27,6 +27,6 @@ class NormalEquations:
         """Add products (n, 16, 16) of basis functions on spans (n,) to the components ``a``, ``b`` and ``b``, ``a`` of
         x, y and z."""
         values = self.pattern.from_spans(products, spans)
-        self.blocks[:, a, b] += values
+        self.blocks[a, b] += values
         if a != b:
-            self.blocks[:, b, a] += values
+            self.blocks[b, a] += values

@@ -26,20 +26,39 @@ _SMOOTH_ANGLE = 0.2
 
 
 @dataclass(frozen=True)
+class CouplingMatrices:
+    """Normal matrices of the couplings that have weights of their own, needed once.
+
+    Attributes
+    ----------
+    shear : (controls, controls) of d_back − d_front, the same for x, y and z
+    smooth, dihedral : (3 controls, 3 controls) of the angles of smooth edges and of all others
+    """
+
+    shear: csr_matrix
+    smooth: bsr_matrix
+    dihedral: bsr_matrix
+
+    @property
+    def graphs(self) -> list[csr_matrix]:
+        """Scalar patterns (controls, controls) of all."""
+        return [self.shear, *(csr_matrix((np.ones(len(matrix.indices)), matrix.indices, matrix.indptr),
+                                         shape=self.shear.shape) for matrix in (self.smooth, self.dihedral))]
+
+
+@dataclass(frozen=True)
 class Couplings:
     """Constant rows and what is needed for their right-hand sides.
 
     Attributes
     ----------
     scalar : (controls, controls) normal matrix of edges, poles, frozen faces and pose; the same for x, y and z
-    shear : (controls, controls) normal matrix of d_back − d_front, the same for x, y and z
     pairs, edges : the places that are coupled
     hinges : the places on edges where there is an angle, the samples of what follows
     pair_normal : (pairs, 3) nominal normal of the sheets
     angle : (samples,) nominal angle of the edges in rad
     thickness_rows : (pairs, controls) d_back − d_front
     thickness_weight : (pairs,) 1/mm²
-    smooth, dihedral : (3 controls, 3 controls) normal matrices of the angles of smooth edges and of all others
     dihedral_rows : (samples, 3 controls) change of the angle between the faces
     dihedral_weight : (samples,) 1/rad²
     sharp : (samples,) whether the faces meet at an angle
@@ -51,7 +70,6 @@ class Couplings:
     """
 
     scalar: csr_matrix
-    shear: csr_matrix
     pairs: SheetPairs
     edges: SharedEdgePlaces
     hinges: SharedEdgePlaces
@@ -59,11 +77,16 @@ class Couplings:
     angle: Array
     thickness_rows: csr_matrix
     thickness_weight: Array
-    smooth: bsr_matrix
-    dihedral: bsr_matrix
     dihedral_rows: bsr_matrix
     dihedral_weight: Array
     sharp: NDArray[np.bool_]
+
+    def matrices(self) -> CouplingMatrices:
+        """Normal matrices of what is not in ``scalar`` and stays the same at every shape."""
+        shear = (self.thickness_rows.T @ diags(self.thickness_weight) @ self.thickness_rows).tocsr()
+        return CouplingMatrices(shear, *(_normal_matrix(self.dihedral_rows.tocsr()[which].tobsr((1, 3)),
+                                                        self.dihedral_weight[which])
+                                         for which in (~self.sharp, self.sharp)))
 
     def thickness_load(self, control_points: Array, thickness: float, shear: float, normal: Array) -> Array:
         """Gradient towards d_back − d_front = −t (n − n₀), Kirchhoff's straight normals: (controls, 3).
@@ -135,15 +158,11 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     dihedral_weight = hinges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
     scalar = (settings.edge_sigma**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, settings, information)))
-    shear = (thickness_rows.T @ diags(thickness_weight) @ thickness_rows).tocsr()
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
     angle = _angle(hinges, still)
-    sharp = np.abs(angle) > _SMOOTH_ANGLE
-    smooth, dihedral = (_normal_matrix(dihedral_rows.tocsr()[which].tobsr((1, 3)), dihedral_weight[which])
-                        for which in (~sharp, sharp))
-    return Couplings(scalar.tocsr(), shear, pairs, edges, hinges, normal, angle, thickness_rows, thickness_weight,
-                     smooth, dihedral, dihedral_rows, dihedral_weight, sharp)
+    return Couplings(scalar.tocsr(), pairs, edges, hinges, normal, angle, thickness_rows, thickness_weight,
+                     dihedral_rows, dihedral_weight, np.abs(angle) > _SMOOTH_ANGLE)
 
 
 def pose_weight(settings: JointSettings, information: float) -> float:

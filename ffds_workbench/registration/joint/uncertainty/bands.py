@@ -22,7 +22,7 @@ _EDGE_MISFIT = 0.045
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:
     """Covariance of the control points of spans from its blocks on the pattern: (n, 16, 16, 3, 3)."""
-    return covariance[problem.pattern.between(spans)].reshape(len(spans), 16, 16, 3, 3)
+    return problem.pattern.of_spans(covariance, spans)
 
 
 def normal_bands(problem: Problem, covariance: Array, errors: Array, table: Array, normal: Array, gap: Array,

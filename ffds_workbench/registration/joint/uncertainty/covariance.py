@@ -17,7 +17,7 @@ _HUTCHINSON_PROBES = 16
 
 
 def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:
-    """Blocks (size, 3, 3) of the covariance on the pattern, and the errors that `shared_errors` finds.
+    """Blocks (3, 3, size) of the covariance on the pattern, and the errors that `shared_errors` finds.
 
     In chi-square units the normal matrix is the inverse of the covariance. What the priors cost, over the number of
     shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
@@ -47,5 +47,5 @@ def _effective_dof(problem: Problem, factor: FrontCholesky, prior: Array) -> flo
     from random signs (Hutchinson, Communications in Statistics 18, 1989) to about 2 %."""
     unknowns = 3 * problem.lattices.count
     signs = np.random.default_rng(problem.settings.seed).choice([-1.0, 1.0], (unknowns, _HUTCHINSON_PROBES))
-    carried = factor.solve_many(problem.pattern.matrix(prior) @ signs)
+    carried = factor.solve_many(problem.pattern.product(prior)(signs))
     return float(((signs - carried) * signs).sum() / _HUTCHINSON_PROBES)
