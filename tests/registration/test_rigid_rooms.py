@@ -169,8 +169,9 @@ def test_proposals_hold_the_pose():
 
 @pytest.mark.parametrize(("mode", "scales"), [("fine", (0.1, 10.0, 30.0)), ("global", (30.0,))])
 def test_no_length_is_fixed(mode, scales):
-    """Part, scan, noise and start times a scale, from a part of 10 mm to one of 3 m: the same verdict and pose, to the pose's own uncertainty, which
-    is σ/√n of 3,500 points, five times over: rounding decides which of the scan's points are looked at."""
+    """Part, scan, noise and start times a scale, from a part of 10 mm to one of 3 m: the same verdict and pose, to the
+    pose's own uncertainty, which is σ/√n of 3,500 points, five times over: rounding decides which of the scan's points
+    are looked at."""
     points, noise = step_scan(), 0.1
     turn = Rotation.from_rotvec((0.2, -0.3, 0.25)).as_matrix()
     for scale in (1.0, *scales):
