@@ -15,6 +15,7 @@ from ..registration.joint import EdgeRegistration, JointFace, JointRegistration,
 from ..scan.cloud import PointCloud
 from .deviation import FaceDeviation
 from .statistics import statistics
+from .versions import versions
 
 Record = dict[str, Any]
 
@@ -95,5 +96,6 @@ def sheet_record(joint: JointRegistration | None) -> Record:
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:
-    """Write a report as JSON text."""
-    path.write_text(json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
+    """Write a report as JSON text, with the versions that it was made with; see resources/docs/report.schema.json."""
+    text = json.dumps({**record, "versions": versions()}, indent=1, ensure_ascii=False, allow_nan=False)
+    path.write_text(text + "\n", "utf-8")
