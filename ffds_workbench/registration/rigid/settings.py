@@ -153,7 +153,7 @@ class VerdictSettings:
     promising: float = 0.1               # of the score; theory: 5 σ of a share of 500 points
     near: float = 0.008                  # sizes within which a normal may be flipped; unit: half a sheet
     clear_explained: float = 0.90        # of the scan, for a quick answer; unit: a scan without clutter
-    clear_misfit: float = 0.65           # calibrated: of the other side's misfit, for one side to be clearly right
+    clear_misfit: float = 0.65           # of the other side's; unit: the right side fits a third better, half followed
     near_sigmas: float = 4.0             # the same in σ; theory: a normal distribution ends there
     flip_reach: float = 0.05             # sizes; unit: the largest deformation
     stray_normals: float = 0.15          # unit: the largest share of normals that have gone astray one by one
