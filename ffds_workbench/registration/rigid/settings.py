@@ -191,6 +191,7 @@ class RigidSettings:
     ----------
     quick, nearby, anywhere, around : efforts. Mode "fine" tries ``quick`` first, then ``nearby``; "global" searches
         ``anywhere``; "local" looks ``around`` the present pose, as every mode does where the best pose is not sure
+    samples, rims, search, refine, deformation, polish, evidence, verdict, symmetry, units : what those rooms need
     """
 
     quick: Effort = QUICK
