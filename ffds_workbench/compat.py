@@ -27,6 +27,13 @@ def qt(module: str) -> Any:
         return importlib.import_module(f"PySide6.{module}")
 
 
+def freecad_version() -> str:
+    """Major, minor and patch of the FreeCAD that runs, "1.1.3" for instance."""
+    import FreeCAD
+
+    return ".".join(FreeCAD.Version()[:3])
+
+
 def execute(loop_or_dialog: Any) -> int:
     """Run a dialog or an event loop until it ends: ``exec_`` in Qt 5, ``exec`` in Qt 6."""
     run = getattr(loop_or_dialog, "exec", None) or loop_or_dialog.exec_

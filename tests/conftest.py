@@ -2,10 +2,12 @@
 """What all tests share: FreeCAD on the path, the optional data folder, and ways to run the command line."""
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
 import tempfile
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -38,13 +40,39 @@ def shared_data(shared: Path) -> Path:
     return shared / "data"
 
 
+@pytest.fixture(scope="session")
+def check_report():
+    """Checks a report, a dictionary, against resources/docs/report.schema.json; nothing where jsonschema is missing."""
+    try:
+        import jsonschema
+    except ImportError:
+        return lambda report: None
+    schema = json.loads((ROOT / "resources" / "docs" / "report.schema.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema).validate
+
+
+@pytest.fixture(autouse=True)
+def every_report_keeps_the_schema(monkeypatch, check_report):
+    """What is written in this process; `ffds` looks at what its processes write."""
+    from ffds_workbench.report import record
+
+    write = record.write
+    monkeypatch.setattr(record, "write", lambda report, path: (write(report, path), check_report(
+        json.loads(path.read_text("utf-8")))))
+
+
 @pytest.fixture
-def ffds(tmp_path: Path):
+def ffds(tmp_path: Path, check_report):
     """Run the launcher: ``ffds("deviation", model, scan)`` gives the finished process (text output)."""
 
     def run(*arguments: object, cwd: Path = tmp_path, timeout: float = 120, **options) -> subprocess.CompletedProcess:
-        return subprocess.run([str(ROOT / "ffds"), *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
+        done = subprocess.run([str(ROOT / "ffds"), *map(str, arguments)], cwd=cwd, timeout=timeout, text=True,
                               stdin=subprocess.DEVNULL, capture_output=True, **options)
+        for option, path in pairwise(arguments):
+            if option in ("--report", "--pose") and done.returncode == 0:
+                check_report(json.loads((cwd / path).read_text("utf-8")))
+        return done
 
     return run
 

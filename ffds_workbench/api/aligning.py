@@ -108,7 +108,13 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
 
 def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,
                     inputs: Sequence[str | Path] = ()) -> None:
-    """Write an aligned scan (.ply) and its pose (.json): both or none.
+    """Write an aligned scan and its pose: both or none.
+
+    Parameters
+    ----------
+    aligned : what `align_scan` gave
+    out, pose : files, .ply and .json
+    inputs : files that were read and must not be written over
 
     Raises
     ------

@@ -11,12 +11,27 @@ from ..output import check_writable
 
 
 def check_outputs(paths: Sequence[str | Path | None], inputs: Sequence[str | Path] = ()) -> None:
-    """Refuse destinations that cannot be written, before any work is done (InputError)."""
+    """Refuse destinations that cannot be written, before any work is done.
+
+    Parameters
+    ----------
+    paths : the files to be written, None for those that are not wanted
+    inputs : files that were read and must not be written over
+
+    Raises
+    ------
+    InputError : a folder is not there, two files are one, or one of them is an input
+    """
     destinations(paths, inputs)
 
 
 def check_model_output(path: str | Path, nominal: Model | None = None) -> None:
     """Refuse the name of an as-built model that no exporter knows, or whose format cannot number its edges.
+
+    Parameters
+    ----------
+    path : of the file to be written
+    nominal : the model that it is made from
 
     Raises
     ------

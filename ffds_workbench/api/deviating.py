@@ -20,7 +20,14 @@ from .inputs import as_cloud, as_model, check_place
 
 @dataclass(frozen=True)
 class Deviation:
-    """The deviation of a scan from a model, face by face."""
+    """The deviation of a scan from a model, face by face.
+
+    Attributes
+    ----------
+    model, scan : what was compared
+    faces : signed distances in mm of the faces that the scan shows
+    report : the figures as a JSON record
+    """
 
     model: Model
     scan: PointCloud
@@ -35,6 +42,12 @@ class Deviation:
 def deviation(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray,
               progress: Progress | None = None) -> Deviation:
     """Signed distances of a scan from the faces of a model, by foot points on the surfaces.
+
+    Parameters
+    ----------
+    model : a `Model`, a file, a shape or a document object
+    scan : a `PointCloud`, a file, or (n, 3) points in mm, aligned with the model
+    progress : called with what is being done
 
     Raises
     ------

@@ -20,12 +20,32 @@ from ..scan.plausibility import check_overlap
 
 
 def read_scan(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
-    """Read one scan file, or fuse several of one part; ``unit`` is that of the files: mm, cm, m or in."""
+    """Read one scan file, or fuse several of one part: points (n, 3) in mm.
+
+    Parameters
+    ----------
+    paths : of the files
+    unit : of the files: "mm", "cm", "m" or "in"
+
+    Raises
+    ------
+    InputError : a file cannot be read, or holds no points
+    """
     return scan_files.read(paths, unit)
 
 
 def read_model(path: str | Path, label: str | None = None) -> Model:
-    """Read a model file; ``label`` picks the object of a FreeCAD document that holds several."""
+    """Read a model file, in mm.
+
+    Parameters
+    ----------
+    path : of a STEP, BREP, IGES or FCStd file
+    label : of the object in a FreeCAD document that holds several
+
+    Raises
+    ------
+    InputError : the file cannot be read, or holds no faces, or no such object
+    """
     return model_file.read(path, label)
 
 

@@ -27,6 +27,12 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     The model is read back and certified before it replaces an earlier file, and waits for nothing else; the deviation
     is measured after it, and the report waits for the check for Boolean operations.
 
+    Parameters
+    ----------
+    result : what `register` gave
+    out, report, picture : files: .step, .brep or .FCStd, .json, and .png
+    inputs : files that were read and must not be written over
+
     Raises
     ------
     InputError : a destination cannot be written or is one of ``inputs``
@@ -51,7 +57,14 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
 
 def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,
                     inputs: Sequence[str | Path] = ()) -> None:
-    """Write the report and the picture of a deviation: both or none. Raises as `write` does."""
+    """Write the report and the picture of a deviation: both or none. Raises as `write` does.
+
+    Parameters
+    ----------
+    result : what `deviation` gave
+    report, picture : files: .json, and .png
+    inputs : files that were read and must not be written over
+    """
     outputs = destinations((report, picture), inputs)
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))

@@ -35,6 +35,7 @@ def prepare(scans: Sequence[PointCloud | np.ndarray | str | Path], model: Model 
     ----------
     scans : one or several; files are in mm
     model : where ``near`` is a distance from it; the scans must be aligned with it
+    progress : called with what is being done
     settings : of `PreparationSettings`
 
     Raises
@@ -60,7 +61,14 @@ def prepare(scans: Sequence[PointCloud | np.ndarray | str | Path], model: Model 
 
 def write_prepared(prepared: PreparedScan, out: str | Path, report: str | Path | None = None,
                    inputs: Sequence[str | Path] = ()) -> None:
-    """Write a prepared scan (.ply, in mm, as doubles) and its report (.json): both or none. Raises as `write` does."""
+    """Write a prepared scan, in mm, and its report: both or none. Raises as `write` does.
+
+    Parameters
+    ----------
+    prepared : what `prepare` gave
+    out, report : files, .ply (as doubles) and .json
+    inputs : files that were read and must not be written over
+    """
     outputs = destinations((out, report), inputs)
     with replacing(*outputs.values()) as temporary:
         write_ply(temporary[0], prepared.scan.points, prepared.scan.normals)

@@ -167,7 +167,13 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
 
 def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: PointCloud | np.ndarray,
         progress: Progress | None = None) -> Result:
-    """Do what a request asks for; see `register`."""
+    """Do what a request asks for. Raises as `register` does.
+
+    Parameters
+    ----------
+    request : how the model is to be deformed
+    model, scan, progress : as for `register`
+    """
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)

@@ -24,6 +24,7 @@ def measure_sensor(scans: Sequence[PointCloud | np.ndarray], flat: bool = False,
     ----------
     scans : one of a flat datum; or several of the same thing from the same place, where nothing moved in between
     flat : several scans are of flat datums too
+    name : of the sensor, for reports
 
     Raises
     ------
@@ -33,7 +34,14 @@ def measure_sensor(scans: Sequence[PointCloud | np.ndarray], flat: bool = False,
 
 
 def write_sensor(profile: SensorProfile, out: str | Path, inputs: Sequence[str | Path] = ()) -> None:
-    """Write a profile as JSON. Raises as `write` does."""
+    """Write a profile as JSON. Raises as `write` does.
+
+    Parameters
+    ----------
+    profile : what `measure_sensor` gave
+    out : the file, .json
+    inputs : files that were read and must not be written over
+    """
     outputs = destinations([out], inputs)
     with replacing(*outputs.values()) as temporary:
         sensor_profile.write(profile, temporary[0])

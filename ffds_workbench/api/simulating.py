@@ -21,6 +21,11 @@ def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None
 
     ``SensorSettings(views=(View((0, 0, 1)),), noise=0.13, seed=1)`` is one shot from above.
 
+    Parameters
+    ----------
+    model : a `Model`, a file, a shape or a document object
+    settings : of the sensor and its views; by default from all sides
+
     Raises
     ------
     InputError, RefusedError : the model cannot be used, or the views see nothing of it
@@ -30,7 +35,14 @@ def simulate(model: Model | Part.Shape | object, settings: SensorSettings | None
 
 def write_simulation(simulation: Simulation, out: str | Path, truth: str | Path | None = None,
                      inputs: Sequence[str | Path] = ()) -> None:
-    """Write a simulated scan (.ply) and its truth (.npz): both or none. Raises as `write` does."""
+    """Write a simulated scan and its truth: both or none. Raises as `write` does.
+
+    Parameters
+    ----------
+    simulation : what `simulate` gave
+    out, truth : files, .ply and .npz
+    inputs : files that were read and must not be written over
+    """
     outputs = destinations((out, truth), inputs)
     with replacing(*outputs.values()) as temporary:
         write_ply(temporary[0], simulation.scan.points)

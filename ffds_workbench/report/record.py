@@ -15,6 +15,7 @@ from ..registration.joint import EdgeRegistration, JointFace, JointRegistration,
 from ..scan.cloud import PointCloud
 from .deviation import FaceDeviation
 from .statistics import statistics
+from .versions import versions
 
 Record = dict[str, Any]
 
@@ -76,22 +77,25 @@ def edge_records(edge_faces: Sequence[Sequence[str]], moved: Sequence[str], obse
 
 def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
     """The report's ``edges`` of a solve over all faces: what each rests on and its band in mm, all in all and at equal
-    steps along it."""
-    return [{"name": edge.name, "flag": edge.flag, "band": edge.band if len(edge.points) else None,
+    steps along it. Edges of no face stay where they were."""
+    return [{"name": edge.name, "flag": edge.flag if len(edge.points) else "nominal",
+             "band": edge.band if len(edge.points) else None,
              "along": {"bands": edge.bands.round(_DIGITS).tolist(), "flags": edge.flags.tolist()}} for edge in edges]
 
 
 def sheet_record(joint: JointRegistration | None) -> Record:
     """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, strain, and how far the
-    part may be off in mm because the scan may show the other skin; what turns or slides in itself, and faces that are
-    carried because they did not come to rest."""
+    part may be off in mm because the scan may show the other skin; what turns or slides in itself, faces that are
+    carried because they did not come to rest, and edges that stay because they bound no face."""
     if joint is None:
-        return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": [], "torn": []}
+        return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": [], "torn": [], "loose": []}
     thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)
     return {"thickness": thickness, "strain": joint.strain, "unsure": joint.unsure,
-            "free_motions": list(joint.free_motions), "torn": list(joint.torn)}
+            "free_motions": list(joint.free_motions), "torn": list(joint.torn),
+            "loose": [edge.name for edge in joint.edges if not len(edge.points)]}
 
 
 def write(record: Mapping[str, Any], path: Path) -> None:
-    """Write a report as JSON text."""
-    path.write_text(json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
+    """Write a report as JSON text, with the versions that it was made with; see resources/docs/report.schema.json."""
+    text = json.dumps({**record, "versions": versions()}, indent=1, ensure_ascii=False, allow_nan=False)
+    path.write_text(text + "\n", "utf-8")

@@ -34,7 +34,8 @@ def doubts(report: Mapping[str, Any]) -> str:
     free = [f"{motion}: no scan tells how far it did, and it stays where it was." for motion in sheet["free_motions"]]
     torn = [f"{name} fits its scan points in more than one place: it is carried by its neighbours, not registered."
             for name in sheet["torn"]]
-    return "\n".join([*free, *torn, *([_skin_doubt(sheet["unsure"])] if sheet["unsure"] else [])])
+    loose = [f"{name} bounds no face: it stays where it was." for name in sheet["loose"]]
+    return "\n".join([*free, *torn, *loose, *([_skin_doubt(sheet["unsure"])] if sheet["unsure"] else [])])
 
 
 def _skin_doubt(unsure: float) -> str:

@@ -30,7 +30,7 @@ class PointCloud:
     normals: NDArray[np.float64] | None = None
 
     def moved(self, pose: NDArray[np.float64], scale: float = 1.0) -> PointCloud:
-        """The scan multiplied by ``scale`` and then moved by a rigid motion (4, 4), with a shift in mm."""
+        """The scan multiplied by ``scale`` and then moved by the rigid motion ``pose`` (4, 4), with a shift in mm."""
         rotation, shift = pose[:3, :3], pose[:3, 3]
         return replace(self, points=scale * self.points @ rotation.T + shift,
                        normals=None if self.normals is None else self.normals @ rotation.T)

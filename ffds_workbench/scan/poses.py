@@ -33,7 +33,11 @@ def as_pose(matrix: Any, of_what: str) -> Array:
 
 
 def read_poses(path: Path) -> tuple[Array, ...]:
-    """The poses of several scans: a JSON list of matrices (4, 4), or of what ``ffds align --pose`` writes of each.
+    """The poses of several scans, (4, 4) each.
+
+    Parameters
+    ----------
+    path : of a JSON list of matrices, or of what ``ffds align --pose`` writes of each
 
     Raises
     ------

@@ -66,6 +66,7 @@ def plan_seams(as_built: Model | Part.Shape | object, edges: Sequence[str] = (),
     bands : the registration's report or its JSON file, for what was observed and how sure it is
     edges : names, "EdgeN"; with ``auto`` only joints along these
     auto : find the joints of parts that lie within this distance (mm) of each other
+    settings, limits : of the torch, and of what a seam may be
     chain : add the edges that go on from the named ones along tangency
 
     Raises

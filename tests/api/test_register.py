@@ -161,3 +161,12 @@ def test_before_is_what_the_deviation_of_the_nominal_is():
     after = api.deviation(result.shape, points).report["deviation"]
     assert result.report["deviation_after"] == pytest.approx(after, abs=1e-9)
     assert result.report["deviation_before"]["mean"] == pytest.approx(2.5, abs=0.1)
+
+
+def test_an_edge_of_no_face_stays_and_is_named(scan):
+    line = Part.makeLine(FreeCAD.Vector(0, 0, 9), FreeCAD.Vector(60, 0, 9))
+    plate = Part.makeCompound([Part.makeBox(60, 40, 5), line])
+    result = api.register(plate, scan)
+    assert result.report["sheet"]["loose"] == ["Edge13"] and "Edge13 bounds no face" in result.table()
+    assert result.report["edges"][12]["flag"] == "nominal"
+    assert result.shape.Edges[12].CenterOfMass == plate.Edges[12].CenterOfMass

@@ -80,6 +80,18 @@ def test_edges_stay_closed_and_the_edited_face_is_what_was_registered():
     np.testing.assert_allclose(moved[top].evaluate(uv, part.faces[top].at(uv)), displacement(uv), atol=1e-12)
 
 
+def test_an_edge_too_long_to_be_held_beside_the_edited_face_holds_nothing_of_it():
+    """The far edges of a large thin plate lie 20 times the displacement away, but to hold them there would take more
+    samples than an edge gets: fewer reach as far as the edited face's own rim."""
+    part = workpiece.read(Part.makeBox(400, 300, 2))
+    top = face_at(part, (3, 3, 2))
+    displacement = lattice(part, top, lambda points: np.broadcast_to([0.0, 0.0, 0.1], points.shape))
+    moved = local_displacements(part, {top: displacement})
+    uv = part.faces[top].trims[0]
+    np.testing.assert_allclose(moved[top].evaluate(uv, part.faces[top].at(uv)), displacement(uv), atol=FIDELITY)
+    assert max(largest_disagreement(part, moved)) <= FIDELITY
+
+
 def test_the_far_side_of_a_sheet_is_carried_along():
     """3 mm behind a bulge of 2 mm: the field has lost at most a tenth there, so the thickness is kept to 0.2 mm."""
     part = workpiece.read(sheet())

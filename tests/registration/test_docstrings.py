@@ -12,17 +12,40 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[2] / "ffds_workbench"
 ARRAYS = re.compile(r"\b(Array|Index|NDArray)\b")
 SHAPE = re.compile(r"\([^()]*[,)]")
-MODULES = sorted(path for layer in ("registration", "api") for path in (PACKAGE / layer).rglob("*.py"))
+
+
+def _surface() -> dict[Path, set[str]]:
+    """What the scripting surface hands out, by the module that it is in."""
+    door = ast.parse((PACKAGE / "api" / "__init__.py").read_text("utf-8"))
+    homes = next(ast.literal_eval(node.value) for node in door.body
+                 if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "_HOMES")
+    places = {home: (PACKAGE if home.startswith("..") else PACKAGE / "api").joinpath(*home.strip(".").split("."))
+              for home in homes}
+    return {place / "__init__.py" if place.is_dir() else place.with_suffix(".py"): set(homes[home])
+            for home, place in places.items()}
+
+
+SURFACE = {}
+for home, names in _surface().items():
+    # What a door hands on is in one of its modules.
+    for path in sorted(home.parent.rglob("*.py")) if home.name == "__init__.py" else [home]:
+        SURFACE[path] = SURFACE.get(path, set()) | names
+MODULES = sorted({path for layer in ("registration", "api") for path in (PACKAGE / layer).rglob("*.py")} | set(SURFACE))
 
 
 def _handed_out() -> set[str]:
     """What the doors of the packages hand out is public; all else is a room's own."""
-    doors = [ast.parse(path.read_text("utf-8")) for path in MODULES if path.name == "__init__.py"]
+    doors = [ast.parse(path.read_text("utf-8")) for path in (PACKAGE / "registration").rglob("__init__.py")]
     return {alias.name for door in doors for node in door.body if isinstance(node, ast.ImportFrom)
             for alias in node.names if not alias.name.startswith("_")}
 
 
 PUBLIC = _handed_out()
+
+
+def _names(path: Path) -> set[str]:
+    """Public names that a module may hold."""
+    return SURFACE.get(path, set()) | (PUBLIC if path.is_relative_to(PACKAGE / "registration") else set())
 
 
 def _public(path: Path) -> Iterator[tuple[str, ast.FunctionDef, str]]:
@@ -32,7 +55,7 @@ def _public(path: Path) -> Iterator[tuple[str, ast.FunctionDef, str]]:
     for node in ast.parse(path.read_text("utf-8")).body:
         if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
             continue
-        if not (in_the_open or node.name in PUBLIC):
+        if not (in_the_open or node.name in _names(path)):
             continue
         if isinstance(node, ast.FunctionDef):
             yield node.name, node, ""
@@ -65,6 +88,26 @@ def _gaps(name: str, function: ast.FunctionDef, of_class: str) -> Iterator[str]:
     raised = {ast.unparse(node.exc.func) for node in ast.walk(function)
               if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call)}
     yield from (f"{name}: {error} is not told" for error in sorted(raised) if error.split(".")[-1] not in text)
+
+
+def _fields(path: Path) -> Iterator[str]:
+    """Fields of public classes of a module that their docstrings leave out, or arrays without a shape."""
+    for node in ast.parse(path.read_text("utf-8")).body:
+        if isinstance(node, ast.ClassDef) and node.name in _names(path):
+            text = ast.get_docstring(node) or ""
+            for item in node.body:
+                if isinstance(item, ast.AnnAssign) and not ast.unparse(item.target).startswith("_"):
+                    name = ast.unparse(item.target)
+                    named = re.findall(rf"(?<![\w.]){re.escape(name)}(?!\w)(.*(?:\n.*)?)", text)
+                    if not named:
+                        yield f"{node.name}.{name} is not explained"
+                    elif _is_array(item.annotation) and not any(map(SHAPE.search, named)):
+                        yield f"{node.name}.{name} has no shape"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_fields_are_told(path):
+    assert not list(_fields(path))
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))

@@ -76,7 +76,8 @@ def _from_face(face: Part.Face, points: Array, uv: Array) -> Array:
     of a grid, as files may turn a surface round; what is still far off, from the nearest point that OCCT finds."""
     surface = face.Surface
     u0, u1, v0, v1 = face.ParameterRange
-    grid = np.stack(np.meshgrid(np.linspace(u0, u1, _GRID), np.linspace(v0, v1, _GRID)), axis=-1).reshape(-1, 2)
+    middles = (np.arange(_GRID) + 0.5) / _GRID  # never a pole, where all directions of u are one
+    grid = np.stack(np.meshgrid(u0 + (u1 - u0) * middles, v0 + (v1 - v0) * middles), axis=-1).reshape(-1, 2)
     nearest = cKDTree([tuple(surface.value(u, v)) for u, v in grid.tolist()]).query(points)[1]
     off = np.minimum(_newton(surface, points, grid[nearest]), _newton(surface, points, uv))
     for k in np.flatnonzero(off > _DOUBTFUL * np.median(off) + _CONVERGED):
@@ -110,9 +111,10 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
 
 
 def _figures(shape: Part.Shape, truth: WorldTruth, off: Array) -> dict[str, Any]:
-    edges = []
+    """Figures of the points, and of the edges that bound a face: the others are no part of a body."""
+    edges, bounds = [], {edge.hashCode() for face in shape.Faces for edge in face.Edges}
     for edge, before, true in zip(shape.Edges, truth.edges_nominal, truth.edges, strict=True):
-        if not edge.Degenerated and np.ptp(before, axis=0).max() > 0:
+        if not edge.Degenerated and np.ptp(before, axis=0).max() > 0 and edge.hashCode() in bounds:
             first, last = edge.ParameterRange
             line = np.array([tuple(edge.valueAt(t)) for t in np.linspace(first, last, _POLYLINE)])
             edges.append(to_polyline(true, line))

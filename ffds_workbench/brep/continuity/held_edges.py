@@ -15,7 +15,10 @@ from .edge_samples import EdgeSamples, along_edge, join_samples
 from .radial_basis import RadialField
 
 _ROOM_FACTOR = 5.0
-"""An edge may stay if it is farther from the edited faces than this many times the displacement there."""
+"""An edge may stay if it is farther from the edited faces than this many times the displacement there, …"""
+_SPARE_REACH = 1.1
+"""… and if it needs no more than this many times that distance to hold, or the edited faces would be held as well
+(theory: at its reach a straight edge is 1.2 away, and the factor has become 1 from 1.05 on)."""
 _TAPER_SHARES = 0.05, 0.5
 """Where a frozen face touches an edited one, the displacement fades over five times itself, but between these parts of
 the edited face's size."""
@@ -79,9 +82,9 @@ class _Surroundings:
     def _candidate(self, samples: EdgeSamples, touched: bool, least: Array) -> _EdgeCandidate:
         displacement = np.linalg.norm(self.smooth(samples.points), axis=1)
         distance = self.tree.query(samples.points)[0]
-        reach = np.maximum(self._reach(samples.points, touched), least)
-        return _EdgeCandidate(samples, reach, bool((distance < _ROOM_FACTOR * displacement).any()),
-                              not displacement.any())
+        near = self._reach(samples.points, touched)
+        crowded = (distance < _ROOM_FACTOR * displacement) | (least > _SPARE_REACH * near)
+        return _EdgeCandidate(samples, np.maximum(near, least), bool(crowded.any()), not displacement.any())
 
     def _reach(self, points: Array, touched: bool) -> Array:
         distance = self.tree.query(points)[0]
@@ -97,7 +100,8 @@ def held_edges(workpiece: Workpiece, edited: frozenset[int], frozen: frozenset[i
     """Grow the adapting faces until what stays is far enough, and hold the rest.
 
     The faces that share a vertex with an edited face adapt; then, while an edge that must stay is nearer to the edited
-    faces than five times the displacement there, the faces across it too. Frozen faces never do.
+    faces than five times the displacement there, or than it takes to hold it, the faces across it too. Frozen faces
+    never do.
 
     Parameters
     ----------

@@ -2,12 +2,12 @@
 """Seams to files: tables, robot programs, the report and its picture, all of them or none."""
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from ...errors import InputError, RefusedError
 from ...output import check_writable, replacing
+from ...report import record
 from ..clearance import blocked_ways
 from ..measured import MeasuredSeam
 from ..plan import SeamPlan
@@ -24,7 +24,18 @@ _KRL_NAME_LIMIT = 24
 
 
 def check_seam_outputs(outs: Sequence[Path], extra: Sequence[Path | None] = (), inputs: Sequence[Path] = ()) -> None:
-    """Refuse tables and programs (``outs``), reports and pictures (``extra``) that cannot be written (InputError)."""
+    """Refuse files that cannot be written, before any work is done.
+
+    Parameters
+    ----------
+    outs : tables and programs
+    extra : reports and pictures, None for those that are not wanted
+    inputs : files that were read and must not be written over
+
+    Raises
+    ------
+    InputError : a format is unknown, a folder is not there, two files are one, or one of them is an input
+    """
     targets = [target for out in outs for target in _targets(out)] + [path for path in extra if path is not None]
     if len({target.resolve() for target in targets}) < len(targets):
         raise InputError("Two outputs have the same name: choose different ones.")
@@ -47,6 +58,14 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
 
     Programs hold the seams within their limits, and the others where the robot's settings ask for them; tables, the
     report and the picture hold all seams.
+
+    Parameters
+    ----------
+    plan : the seams
+    outs : tables (.csv) and programs (.src, .mod, .script, .FCStd)
+    robot : its tool, base and motion; the defaults of `RobotSettings`
+    report_path, picture : files: .json, and .png
+    inputs : files that were read and must not be written over
 
     Returns
     -------
@@ -72,8 +91,7 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
         for out in files:
             _write_one(out, names, plan, paths, robot)
         if report is not None:
-            text = json.dumps(plan.record(), indent=1, ensure_ascii=False, allow_nan=False)
-            names[report].write_text(text + "\n", "utf-8")
+            record.write(plan.record(), names[report])
         if drawing is not None:
             draw(names[drawing], plan)
     renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in files
@@ -82,12 +100,24 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
 
 
 def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]:
-    """The seams that come into programs."""
+    """The seams that come into programs.
+
+    Parameters
+    ----------
+    plan : all seams
+    robot : whether failing ones are kept
+    """
     return [seam for seam in plan.seams if robot.keep_failing or not seam.exceeded(plan.limits)]
 
 
 def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
-    """What the user must know of the programs of a plan, as sentences; known before they are written."""
+    """What the user must know of the programs, as sentences; known before they are written.
+
+    Parameters
+    ----------
+    plan : the seams
+    robot : its tool, base and motion
+    """
     failing = [f"{seam.name} ({', '.join(exceeded)})" for seam in plan.seams
                if (exceeded := seam.exceeded(plan.limits))]
     notes = []

@@ -47,11 +47,15 @@ class RobotSettings:
 
 
 def read_frame_choice(text: str) -> FrameChoice:
-    """A tool or a base as a user writes it: "3", "tWeldGun", or "X,Y,Z,A,B,C" in mm and degrees.
+    """A tool or a base as a user writes it.
+
+    Parameters
+    ----------
+    text : a number as "3", a name as "tWeldGun", or "X,Y,Z,A,B,C" in mm and degrees
 
     Raises
     ------
-    InputError
+    InputError : it is none of these
     """
     if text.isdecimal():
         return int(text)

@@ -50,6 +50,12 @@ def carry(nominal: Model | Part.Shape | object, as_built: Model | Part.Shape | o
           inputs: Sequence[Path] = ()) -> CarriedPath:
     """Carry a CSV or KRL path along and write it in its own format; a .src takes its .dat with it.
 
+    Parameters
+    ----------
+    nominal, as_built : models, shapes or document objects
+    path, out : files of the same format
+    inputs : files that were read and must not be written over
+
     Raises
     ------
     InputError : the path cannot be read, or the models are no pair

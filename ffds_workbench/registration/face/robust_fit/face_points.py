@@ -26,6 +26,11 @@ class FacePoints:
 
     Attributes
     ----------
+    raster : of the face
+    scan : (n, 3) in mm
+    reach : distance in mm from the face within which points are kept
+    margin : in mm, that points have to keep from the trims
+    locate : finds foot points on the face
     sample : some of those at least the margin from the trims, drawn at random but always the same
     count : number of those at least the margin from the trims; an estimate where they are not kept
     kept : all of those, and those nearer to the trims, where they are few

@@ -60,7 +60,7 @@ class FrontLayout:
 
 
 class FrontCholesky:
-    """A = Uᵀ U, front by front."""
+    """A = Uᵀ U, front by front; ``flat`` (size,) holds the rows of U of all fronts, as `FrontLayout` has them."""
 
     flat: Array
 

@@ -25,7 +25,13 @@ _PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)
 
 @dataclass(frozen=True)
 class SomeBlocks:
-    """Values (3, 3, n) at some places (n,) of a pattern, each once."""
+    """Values at some places of a pattern, each once.
+
+    Attributes
+    ----------
+    place : (n,) numbers of the blocks
+    values : (3, 3, n)
+    """
 
     place: Index
     values: Array

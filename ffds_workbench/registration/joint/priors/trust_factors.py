@@ -7,9 +7,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class PriorTrust:
-    """Factors on the weights of the priors: of isometry, of the thickness of sheets and their resistance to shear
-    through the thickness, of the angles of edges, and of what bends within a surface. Bending across it always has its
-    weight: it only keeps surfaces smooth."""
+    """Factors on the weights of the priors. Bending across a surface always has its weight: it only keeps it smooth.
+
+    Attributes
+    ----------
+    isometry : that lengths stay
+    thickness, shear : that the skins of a sheet keep their distance, and do not slide along each other
+    dihedral : that edges keep their angles
+    sliding : that nothing bends within a surface
+    """
 
     isometry: float = 1.0
     thickness: float = 1.0

@@ -47,7 +47,7 @@ class JointPart:
     ----------
     faces : the faces in FreeCAD's order
     edges : the edges in FreeCAD's order
-    solids : faces of each solid, as indices; faces outside any solid form a group of their own
+    solids : (k,) indices of the faces of each solid; faces outside any solid form a group of their own
     frozen : indices of faces that must not move
     """
 
