@@ -108,7 +108,12 @@ class JointSettings:
     seed: int = 0
 
     def stages(self, lengths: Lengths) -> tuple[Stage, ...]:
-        """The schedule with its gates and what is enough in mm; the farther away the scan, the more stiff steps."""
+        """The schedule with its gates and what is enough in mm; the farther away the scan, the more stiff steps.
+
+        Parameters
+        ----------
+        lengths : of the solve
+        """
         more = max(1.0, lengths.reach / (_USUAL_REACH * lengths.size))
         last = self.schedule[-1].gate
         result = []
