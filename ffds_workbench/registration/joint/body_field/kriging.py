@@ -2,7 +2,8 @@
 """Kriging of a displacement in space from single components of it: Gaussian process regression of a vector field.
 
 Formulas and their numbers are those of Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006. The three
-components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8).
+components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8). Own code
+because scikit-learn's regression knows values of a whole function alone, not components in a direction of each place.
 """
 from __future__ import annotations
 

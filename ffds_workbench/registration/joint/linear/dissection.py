@@ -3,6 +3,7 @@
 
 Found once per part, from where the control points lie and which of them meet in a row (George, SIAM J. Numer. Anal. 10,
 1973). Fill-in and work then grow as n log n and n^1.5 on a surface, far below those of a banded order.
+Own code because scipy orders by bands only (reverse Cuthill and McKee), and Debian 12 has no METIS for Python.
 """
 from __future__ import annotations
 
