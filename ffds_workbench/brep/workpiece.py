@@ -38,6 +38,9 @@ class WorkpieceFace:
         polylines, curved = trims(self.face)
         if not polylines:
             raise InputError(f"{self.name} has no boundary in its (u, v) parameters: repair the shape first.")
+        extent = np.ptp(np.concatenate(polylines), axis=0)
+        if not (np.isfinite(extent).all() and extent.all()):
+            raise InputError(f"{self.name} has no area in its (u, v) parameters: repair the shape first.")
         return polylines, curved
 
     @property

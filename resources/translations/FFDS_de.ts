@@ -1758,6 +1758,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan {0} ist beschädigt oder abgeschnitten: Seine gepackten Punkte lassen sich nicht entpacken.</translation>
     </message>
     <message>
+      <source>The scan {0} is damaged or cut off: its points cannot be read.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>The scan {0} is damaged or no text of points: line {1} has fewer than {2} values.</source>
       <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: Zeile {1} hat weniger als {2} Werte.</translation>
     </message>
@@ -1832,6 +1836,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan {0} is of an unknown format: use one of {1}.</source>
       <translation>Der Scan {0} hat ein unbekanntes Format: Nehmen Sie eines von {1}.</translation>
+    </message>
+    <message>
+      <source>The scan {0} needs {1}, which is not installed: install it, or save the scan as .ply or .e57.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>The seam branches after Edge{0}: {1} both go on from it; name the edges one by one.</source>
@@ -2118,6 +2126,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} hat keine angrenzenden Flächen: Eine Brennerrichtung braucht zwei.</translation>
     </message>
     <message>
+      <source>{0} has no area in its (u, v) parameters: repair the shape first.</source>
+      <translation>{0} hat in ihren (u, v)-Parametern keinen Flächeninhalt: Reparieren Sie zuerst die Form.</translation>
+    </message>
+    <message>
       <source>{0} has no boundary in its (u, v) parameters: repair the shape first.</source>
       <translation>{0} hat keinen Rand in ihren Parametern (u, v): Reparieren Sie zuerst die Form.</translation>
     </message>
@@ -2200,6 +2212,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} lies on another part over {1} mm only, too short for a seam.</source>
       <translation>{0} liegt nur auf {1} mm an einem anderen Teil, zu kurz für eine Naht.</translation>
+    </message>
+    <message>
+      <source>{0} links to a document that is missing or damaged, in '{1}': put it where it was, or pick another object with --object.</source>
+      <translation>{0} verweist in „{1}“ auf ein Dokument, das fehlt oder beschädigt ist: Legen Sie es dorthin, wo es war, oder wählen Sie mit --object ein anderes Objekt.</translation>
     </message>
     <message>
       <source>{0} source points are too few: {1} are the least.</source>

@@ -13,6 +13,7 @@ import pytest
 
 from ffds_workbench import RESOURCES
 from ffds_workbench.benchmark.fuzz import mutations
+from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.model_files import model_file, reader, reading, step_colours
 from ffds_workbench.errors import InputError
 
@@ -185,3 +186,37 @@ def test_containers_of_documents(document):
     for length in (10, len(content) // 2, len(content) - 100):
         damaged.write_bytes(content[:length])
         assert "damaged" in refused(damaged)
+
+
+def test_a_link_to_another_document(tmp_path):
+    """What it leads to is read from the other document; that it is missing is said."""
+    source, user = (FreeCAD.newDocument(name, hidden=True) for name in ("Source", "User"))
+    box = source.addObject("Part::Box", "Box")
+    source.recompute()
+    source.saveAs(str(tmp_path / "source.FCStd"))
+    user.saveAs(str(tmp_path / "user.FCStd"))
+    link = user.addObject("App::Link", "Link")
+    link.LinkedObject, link.Placement.Base = box, FreeCAD.Vector(5, 0, 0)
+    user.addObject("Part::Sphere", "Ball")
+    user.recompute()
+    user.save()
+    for document in (user, source):
+        FreeCAD.closeDocument(document.Name)
+    shape = model_file.read(tmp_path / "user.FCStd", "Link").shape
+    assert len(shape.Faces) == 6 and abs(shape.BoundBox.XMin - 5.0) < 1e-6  # a box is that much larger at most
+    (tmp_path / "source.FCStd").unlink()
+    assert "missing or damaged, in 'Link'" in refused(tmp_path / "user.FCStd")
+    assert len(model_file.read(tmp_path / "user.FCStd", "Ball").shape.Faces) == 1
+
+
+def test_a_face_without_area(tmp_path):
+    """Of an arc that turns about an axis which it does not meet at a right angle, OCCT's reader leaves one circle."""
+    start, top = FreeCAD.Vector(11, 0, 0), FreeCAD.Vector(0, 0, 19)
+    sides = [Part.Arc(start, FreeCAD.Vector(14, 0, 14.5), top), Part.LineSegment(top, FreeCAD.Vector()),
+             Part.LineSegment(FreeCAD.Vector(), start)]
+    half = Part.Face(Part.Wire([side.toShape() for side in sides]))
+    dome = half.revolve(FreeCAD.Vector(), FreeCAD.Vector(0, 0, 1), 360)
+    dome.exportStep(str(tmp_path / "dome.step"))
+    part = workpiece.read(model_file.read(tmp_path / "dome.step").shape)
+    with pytest.raises(InputError, match="Face.* has no area"):
+        [face.box for face in part.faces]

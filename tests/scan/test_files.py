@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -108,6 +109,19 @@ def test_text(tmp_path, name):
     cloud = read(tmp_path, name, content)
     np.testing.assert_array_equal(cloud.points, [[1.5, 2.5, 3.5], [4, 5, 6]])
     assert cloud.dropped == dropped
+
+
+def test_reading_stl_takes_memory_for_its_corners(tmp_path):
+    """Of a facet's 50 bytes: itself, its corners twice while they are sorted, and two numbers for each of them."""
+    facets = np.zeros(200_000, np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]))
+    facets["corners"] = np.random.default_rng(1).integers(0, 9, (len(facets), 3, 3))
+    path = tmp_path / "large.stl"
+    path.write_bytes(b"a scan".ljust(80) + struct.pack("<I", len(facets)) + facets.tobytes())
+    tracemalloc.start()
+    files.read(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 5 * path.stat().st_size
 
 
 def test_stl_corners_are_merged(tmp_path):

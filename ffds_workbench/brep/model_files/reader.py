@@ -144,6 +144,7 @@ def _pick(path: Path, document: Any, label: str | None) -> Any:
             known = ", ".join(f"'{item.Label}'" for item in candidates) or "none"
             raise InputError(f"{path} has no object '{label}' with faces; it has {known}.")
         return named[0]
+    _check_links(path, document)
     whole = [item for item in candidates if not any(hasattr(user, "Shape") for user in item.InList)]
     if not whole:
         raise InputError(f"{path} has no object with faces.")
@@ -151,3 +152,11 @@ def _pick(path: Path, document: Any, label: str | None) -> Any:
         known = ", ".join(f"'{item.Label}'" for item in whole)
         raise InputError(f"{path} holds several objects: pick one with --object, of {known}.")
     return whole[0]
+
+
+def _check_links(path: Path, document: FreeCAD.Document) -> None:
+    """Refuse a document of which a part lies in another one that is not there (InputError)."""
+    empty = [item.Label for item in document.Objects if item.TypeId == "App::Link" and item.LinkedObject is None]
+    if empty:
+        raise InputError(f"{path} links to a document that is missing or damaged, in '{empty[0]}': put it where it "
+                         f"was, or pick another object with --object.")

@@ -17,6 +17,8 @@ from ...errors import InputError
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
+_TOGETHER = 1 << 16
+"""Triangles whose normals are computed at a time: what that needs besides them would be several times the file."""
 _LAST = 1024
 """Bytes at the end of the file among which its text says that it ends."""
 
@@ -48,17 +50,35 @@ def _merged(triangles: NDArray[np.floating]) -> NDArray[np.float64]:
     The order of a triangle's corners tells its side; the normals that the file holds besides are often missing.
     """
     corners = triangles.reshape(-1, 3)
+    first, number = _different(corners)
+    normal = np.concatenate([np.zeros((0, 3)), *(_across(triangles[start : start + _TOGETHER])
+                                                 for start in range(0, len(triangles), _TOGETHER))])
+    points = np.empty((len(first), 6))
+    points[:, :3] = corners[first]
+    for axis in range(3):
+        points[:, 3 + axis] = np.bincount(number, np.repeat(normal[:, axis], 3), len(first))
+    length = np.linalg.norm(points[:, 3:], axis=1, keepdims=True)
+    points[:, 3:] /= np.where(length > 0, length, 1.0)
+    return points
+
+
+def _different(corners: NDArray[np.floating]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where each different corner stands first, ascending, and for every corner (n, 3) which of these it is."""
     order = np.lexsort(corners.T)  # stable: of equal corners the first comes first
     in_order = corners[order]
     different = np.append(True, (in_order[1:] != in_order[:-1]).any(axis=1))[: len(order)]
     first = order[different]
-    number = np.empty(len(order), dtype=np.int64)
-    number[order] = np.cumsum(different) - 1
+    rank = np.empty(len(first), dtype=np.intp)
+    rank[np.argsort(first)] = np.arange(len(first))
+    number = np.empty(len(order), dtype=np.intp)
+    number[order] = rank[np.cumsum(different) - 1]
+    return np.sort(first), number
+
+
+def _across(triangles: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Normals of triangles (m, 3, 3), as long as twice their areas: (m, 3)."""
     a, b, c = triangles.astype(np.float64).transpose(1, 0, 2)
-    normal = np.cross(b - a, c - a)
-    total = np.stack([np.bincount(number, np.repeat(normal[:, axis], 3), len(first)) for axis in range(3)], axis=1)
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    return np.hstack([corners[first], total / np.where(length > 0, length, 1.0)])[np.argsort(first)]
+    return np.cross(b - a, c - a)
 
 
 def _ascii(path: Path, data: bytes) -> NDArray[np.float64]:
