@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from ...arrays import Array, Index
-from .dissection import Front
+from .elimination_order import Front
 
 _Runs = list[tuple[slice, slice]]
 

@@ -12,7 +12,7 @@ from scipy.sparse import bsr_matrix, csr_matrix, spmatrix, triu
 from ...arrays import Array, Index
 from ..surfaces import Lattices
 from .cholesky import FrontCholesky, FrontLayout
-from .dissection import dissect
+from .elimination_order import dissect
 
 _CG_STEPS = 12
 """Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
