@@ -15,8 +15,10 @@ from .cholesky import FrontCholesky, FrontLayout
 from .elimination_order import dissect
 
 _CG_STEPS = 12
-"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
+"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too
+(unit: time)."""
 _CG_TOLERANCE = 3e-3
+"""Of the energy norm of the error, where conjugate gradients stop (unit: the next step corrects the rest)."""
 _PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)
 """Pairs of the control points of a span, (136,) each."""
 
