@@ -13,7 +13,7 @@ import pytest
 from FreeCAD import Vector
 
 from ffds_workbench.benchmark import world
-from ffds_workbench.benchmark.world import ScanSettings, judge, numbers
+from ffds_workbench.benchmark.world import ScanSettings, exact_samples, judge, numbers
 from ffds_workbench.benchmark.world.case import WorldTruth, bent_and_twisted, make
 
 EXACT = 1e-9
@@ -77,6 +77,17 @@ def test_distances_are_found_near_the_poles_of_a_sphere():
     uv = np.column_stack([u, np.full(40, sphere.Faces[0].ParameterRange[3])])
     off = judge.distances(sphere, WorldTruth(points, points, np.zeros(40, int), uv, np.ones(40, bool), None, None))
     np.testing.assert_allclose(off, np.hypot(0.05, 10.3) - 10, atol=EXACT)
+
+
+def test_slivers_are_divided_into_few_triangles():
+    """A triangle 100 times as long as a piece may be, and half a piece wide, kept a machine busy for hours."""
+    sliver = np.array([[[0, 0, 0, 0, 0], [100, 0.5, 0, 100, 0], [100, 0, 0, 100, 1.0]]])
+    corners = exact_samples._divided(sliver, 1.0)
+    sides = np.linalg.norm(corners[:, :, :3] - np.roll(corners[:, :, :3], -1, axis=1), axis=2)
+    assert sides.max() <= 1.0 and len(corners) <= 4 * 200  # two to a strip, and once across where they are widest
+    area = exact_samples.Triangles(corners, np.zeros(len(corners), int)).area_vectors[:, 2]
+    assert area.min() > 0 or area.max() < 0
+    np.testing.assert_allclose(np.abs(area).sum(), 50.0, rtol=1e-12)
 
 
 def test_other_numbers_are_found():

@@ -91,18 +91,36 @@ def _mesh(face: Part.Face, sag: float) -> Array:
 
 
 def _divided(corners: Array, longest: float) -> Array:
-    """Halve triangles across their longest side until none is longer."""
+    """Halve triangles across their longest side until none is longer; slivers are cut into strips, of which there are
+    fewer."""
     done = []
     while len(corners):
         sides = np.linalg.norm(corners[:, :, :3] - np.roll(corners[:, :, :3], -1, axis=1), axis=2)
-        large = sides.max(axis=1) > longest
+        large, narrow = sides.max(axis=1) > longest, sides.min(axis=1) <= longest
         done.append(corners[~large])
-        corners, start = corners[large], sides[large].argmax(axis=1)
+        strips = _strips(corners[large & narrow], sides[large & narrow], longest)
+        corners, start = corners[large & ~narrow], sides[large & ~narrow].argmax(axis=1)
         row = np.arange(len(corners))
         a, b, c = (corners[row, (start + k) % 3] for k in range(3))
         middle = 0.5 * (a + b)
-        corners = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)])
+        corners = np.concatenate([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1), *strips])
     return np.concatenate(done) if done else corners
+
+
+def _strips(corners: Array, sides: Array, longest: float) -> list[Array]:
+    """Triangles (m, 3, 5) cut along their shortest side, no strip wider than ``longest``, and every strip in two."""
+    first = sides.argmin(axis=1)
+    row = np.arange(len(corners))
+    b, c, apex = (corners[row, (first + k) % 3] for k in range(3))
+    pieces = np.ceil(sides.max(axis=1) / longest).astype(int)
+    result = []
+    for count in np.unique(pieces):
+        own = pieces == count
+        share = np.linspace(0, 1, count + 1)[:, None]
+        left, right = (apex[own, None] + share * (end[own, None] - apex[own, None]) for end in (b, c))
+        result += [np.stack([left[:, :-1], left[:, 1:], right[:, 1:]], axis=2).reshape(-1, 3, 5),
+                   np.stack([left[:, 1:-1], right[:, 2:], right[:, 1:-1]], axis=2).reshape(-1, 3, 5)]
+    return result
 
 
 def _on_surface(surface: Part.Surface, uv: Array, near: Array, sag: float) -> tuple[Array, Array]:

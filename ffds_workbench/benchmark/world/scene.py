@@ -71,12 +71,9 @@ class _DepthPicture:
         self._corner = (points @ self._across.T).min(axis=0) - pixel
         cell, depth = self._cell(points), points @ view
         self._columns = int(cell[:, 1].max()) + 2
-        cell = cell @ [self._columns, 1]
+        cell, order = cell @ [self._columns, 1], np.argsort(depth)
         self._nearest = np.full(cell.max() + self._columns + 2, -np.inf)
-        while len(cell):  # of several points in a pixel any one is kept, until none is nearer
-            self._nearest[cell] = depth
-            nearer = depth > self._nearest[cell]
-            cell, depth = cell[nearer], depth[nearer]
+        self._nearest[cell[order]] = depth[order]  # of several points in a pixel numpy keeps the last one
 
     def shows(self, points: Array, cosine: Array) -> NDArray[np.bool_]:
         """Whether nothing is nearer than the points (n, 3) by more than the depth that their own surface, seen at that
