@@ -6,6 +6,7 @@ import ast
 import re
 import shlex
 import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -59,6 +60,15 @@ def test_blocks_can_be_run(page):
                     command_line().parse_args(words[1:])
                 except InputError as error:
                     raise AssertionError(f"{line}: {error}") from None
+
+
+def test_the_pages_build_without_a_warning(tmp_path):
+    for name in ("sphinx", "myst_parser"):
+        pytest.importorskip(name, reason="Sphinx or MyST is not installed: the documentation is not built")
+    done = subprocess.run(["sh", str(ROOT / "resources" / "scripts" / "docs.sh"), str(tmp_path)], text=True,
+                          capture_output=True)
+    assert done.returncode == 0, done.stderr
+    assert "--remove-clutter" in (tmp_path / "commands.html").read_text("utf-8")
 
 
 def test_refusals_in_the_faq_are_refusals():
