@@ -16,6 +16,7 @@ RANK = {"__init__": 0, "errors": 0, "compat": 0, "find_freecad": 0, "output": 0,
         "brep": 3,
         "seams": 4, "report": 4, "api": 5, "benchmark": 6, "cli": 7, "objects": 7, "gui": 8}
 GUI_ONLY = {"FreeCADGui", "PySide", "PySide2", "PySide6", "pivy"}
+NETWORK = {"socket", "ssl", "urllib", "http", "ftplib", "smtplib", "requests", "webbrowser"}
 FREECAD = {"FreeCAD", "Part", "Points", "Mesh", "Import"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for path in ROOT.rglob(pattern)
@@ -57,6 +58,10 @@ def test_arrows_point_down(path):
             assert RANK[other] <= RANK[layer], f"{layer} must not import {other}"
         assert layer == "gui" or parts[0] not in GUI_ONLY, f"{layer} must not import {parts[0]}"
         assert layer != "registration" or parts[0] not in FREECAD, f"registration must not import {parts[0]}"
+
+
+def test_nothing_opens_a_connection():
+    assert not {f"{path.name}: {name}" for path in MODULES for name in _imports(path) if name.split(".")[0] in NETWORK}
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))

@@ -8,6 +8,7 @@ import numpy as np
 import Part
 from scipy.spatial import cKDTree
 
+from ..brep.topology import points_on_edge
 from ..brep.workpiece import Workpiece
 from ..errors import RefusedError
 from ..registration.arrays import Array
@@ -21,8 +22,9 @@ _LARGEST_DEFORMATION = 0.05
 _UNEXPLAINED_SHARE = 0.25
 """Share of the scan beyond that from which the alignment is asked (theory: where three quarters lie on the part, the
 solve holds; what else is in the scan is clutter)."""
-_SAMPLE, _CELLS = 4000, 256
-"""Scan points that are looked at, and places on each face: a twentieth of its size apart or nearer."""
+_SAMPLE, _CELLS, _PLACES_ON_EDGE = 4000, 256, 33
+"""Scan points that are looked at, and places on each face and along each edge: a twentieth of its size apart or
+nearer."""
 _known: deque[tuple[Part.Shape, Array, str]] = deque(maxlen=4)
 
 
@@ -33,21 +35,34 @@ def refuse_other_part(part: Workpiece, cloud: PointCloud) -> None:
     ------
     RefusedError : the scan is one of another part, or has to be aligned first
     """
-    some = np.random.default_rng(0).permutation(len(cloud.points))[:_SAMPLE]
+    sample = cloud.points[np.random.default_rng(0).permutation(len(cloud.points))[:_SAMPLE]]
+    if _unexplained(_on_edges(part), sample)[0] <= _UNEXPLAINED_SHARE:
+        return  # as is usual where there are many faces: no need to look at all of them
     rasters = [make_raster(part.geometry(index), _CELLS) for index in range(len(part.faces))]
-    places = np.concatenate([raster.position[raster.inside] for raster in rasters])
-    far = _LARGEST_DEFORMATION * float(np.linalg.norm(np.ptp(places, axis=0)))
-    distance, _ = cKDTree(places).query(cloud.points[some], distance_upper_bound=far)
-    if np.isinf(distance).mean() <= _UNEXPLAINED_SHARE:
+    share, far = _unexplained(np.concatenate([raster.position[raster.inside] for raster in rasters]), sample)
+    if share <= _UNEXPLAINED_SHARE:
         return
     for shape, points, sentence in _known:
-        if shape.isEqual(part.shape) and np.array_equal(points, cloud.points[some]):
+        if shape.isEqual(part.shape) and np.array_equal(points, sample):
             break
     else:
         sentence = far_scan_refusal(part.shape, cloud, far)
-        _known.append((part.shape, cloud.points[some], sentence))
+        _known.append((part.shape, sample, sentence))
     if sentence:
         raise RefusedError(sentence)
+
+
+def _on_edges(part: Workpiece) -> Array:
+    """Places (n, 3) along the edges of a part."""
+    fractions = np.linspace(0.0, 1.0, _PLACES_ON_EDGE)
+    return np.concatenate([points_on_edge(edge, fractions) for edge in part.edges])
+
+
+def _unexplained(places: Array, points: Array) -> tuple[float, float]:
+    """Share of points (n, 3) that lie farther from places on a part than its deformation explains, and that in mm."""
+    far = _LARGEST_DEFORMATION * float(np.linalg.norm(np.ptp(places, axis=0)))
+    distance, _ = cKDTree(places).query(points, distance_upper_bound=far)
+    return float(np.isinf(distance).mean()), far
 
 
 def far_scan_refusal(shape: Part.Shape, cloud: PointCloud, far: float) -> str:

@@ -21,17 +21,17 @@ import open3d as o3d
 import Part
 from FreeCAD import Vector
 from scipy.spatial import cKDTree
-from scipy.spatial.transform import Rotation
 
 from .. import ROOT
 from ..brep import workpiece
 from ..brep.simulated_scan import scene_of as sensor_target_of
 from ..registration.face_geometry import FaceGeometry
-from ..registration.motions import angle, apply, best_fit, motion
-from ..registration.rigid import AMBIGUOUS, FAILED, Target, align, target_of
+from ..registration.motions import angle, apply, best_fit
+from ..registration.rigid import AMBIGUOUS, FAILED, RigidSettings, SampleSettings, Target, align, target_of
 from ..scan.sensor import SensorSettings, View, simulate
 from .pages.page import Section, Table, write
 from .simulated.families import Case, make_case
+from .simulated.loose_scans import random_start, table_under
 
 Array = np.ndarray
 _FAMILIES = ("bracket", "rimmed-plate", "hat-channel", "pipe-on-plate", "free-form-panel")
@@ -157,7 +157,7 @@ def _trials(progress: Callable[[str], None]) -> list[Trial]:
         scan = _resampled(points, np.random.default_rng(1))
         along = points @ (1.0, 0.4, 0.0)
         cropped = _resampled(points[along < np.quantile(along, 0.75)], np.random.default_rng(1))
-        on_table = _on_table(scan, target, case.part.views.mean(axis=0))
+        on_table = table_under(scan, target, case.part.views.mean(axis=0), 0.13, np.random.default_rng(2))
         bent = make_case(family, "bend", 1, amplitude=5.0)
         bent_target, bent_seconds = _sampled(bent.target.faces)
         trials += [Trial(family, "rigid", target, scan, np.eye(4), seconds),
@@ -182,19 +182,6 @@ def _resampled(scan: Array, rng: np.random.Generator) -> Array:
     return chosen + rng.normal(0.0, 0.06, chosen.shape)
 
 
-def _on_table(scan: Array, target: Target, up: Array, share: float = 0.6) -> Array:
-    """Part of the scan, with a table under it that carries a share of all points and has none in the part's shadow."""
-    rng = np.random.default_rng(2)
-    up = up / np.linalg.norm(up)
-    across = np.linalg.svd(up[None])[2][1:]
-    count = int(share * len(scan))
-    place = target.centre @ across.T + rng.uniform(-1.0, 1.0, (3 * count, 2)) * target.size
-    shadow = cKDTree(target.samples.points @ across.T).query(place, distance_upper_bound=target.spacing)[0]
-    place = place[~np.isfinite(shadow)][:count]
-    height = (target.samples.points @ up).min() + rng.normal(0.0, 0.13, len(place))
-    return np.concatenate([scan[count:], place @ across + height[:, None] * up])
-
-
 def _symmetric() -> Trial:
     """A channel that a turn by 180° maps onto itself."""
     shape = Part.makeBox(100, 40, 25).cut(Part.makeBox(100, 34, 22, Vector(0, 3, 3)))
@@ -205,17 +192,6 @@ def _symmetric() -> Trial:
     scan = simulate(sensor_target_of(shape), SensorSettings(spacing=0.3, views=views, seed=3)).points
     target, seconds = _sampled([part.geometry(k) for k in range(len(part.faces))])
     return Trial("channel", _SYMMETRIC, target, _resampled(scan, np.random.default_rng(3)), np.eye(4), seconds)
-
-
-def random_start(scan: Array, mode: str, rng: np.random.Generator) -> Array:
-    """A motion of the scan: any for "global", 30° and 50 mm about its centroid for "fine"; (4, 4)."""
-    middle = scan.mean(axis=0)
-    if mode == "global":
-        rotation = Rotation.random(random_state=int(rng.integers(2**31))).as_matrix()
-        return motion(rotation, rng.uniform(-500, 500, 3))
-    axis, direction = (v / np.linalg.norm(v) for v in rng.normal(size=(2, 3)))
-    rotation = Rotation.from_rotvec(np.deg2rad(30) * axis).as_matrix()
-    return motion(rotation, middle - rotation @ middle + 50.0 * direction)
 
 
 def one_start(trial: Trial, mode: str, seed: int) -> Try:
@@ -307,7 +283,7 @@ def _real(folder: Path, seeds: int, progress: Callable[[str], None]) -> tuple[Ta
     part = workpiece.read(shape)
     faces = [part.geometry(k) for k in range(len(part.faces))]
     target = target_of(faces)
-    dense = cKDTree(target_of(faces, 250_000).samples.points)
+    dense = cKDTree(target_of(faces, RigidSettings(samples=SampleSettings(250_000))).samples.points)
     raw = np.asarray(o3d.io.read_point_cloud(str(folder / "scan_robot_laser_60deg.pcd")).points)
     known = np.array(json.loads((folder / "pose.json").read_text())["T_model_scan_mm"])
 

@@ -37,7 +37,7 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit code."""
     try:
-        options = _parser().parse_args(arguments)
+        options = command_line().parse_args(arguments)
     except InputError as error:
         return _fail(sys.stderr, error)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -83,7 +83,8 @@ def _fail(stream: TextIO, error: FfdsError) -> int:
     return error.exit_code
 
 
-def _parser() -> argparse.ArgumentParser:
+def command_line() -> argparse.ArgumentParser:
+    """The parser of all commands, with their options."""
     parser = _Parser(prog="ffds", description="As-built CAD models from scans: surface-based free-form deformation.",
                      epilog="'ffds setup' installs what is needed and runs the example; 'ffds test' runs the tests.")
     parser.add_argument("--version", action="version", version=f"FFDS {__version__}")

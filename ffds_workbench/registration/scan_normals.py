@@ -19,8 +19,14 @@ def scan_normals(points: Array) -> Array:
     """Unit normals of scan points, their sign unknown, from the plane through each point's neighbours; (n, 3)."""
     count = min(_PLANE_NEIGHBOURS, len(points))
     neighbours = points[cKDTree(points).query(points, count)[1].reshape(len(points), count)]
-    neighbours = neighbours - neighbours.mean(axis=1, keepdims=True)
-    return np.asarray(np.linalg.eigh(neighbours.transpose(0, 2, 1) @ neighbours)[1][:, :, 0])
+    return plane_normals(neighbours - neighbours.mean(axis=1, keepdims=True))
+
+
+def plane_normals(offsets: Array) -> Array:
+    """Unit normals, their sign unknown, of the planes through neighbourhoods of k points, given as ``offsets``
+    (n, k, 3) from the middle of each; (n, 3). `scan_sketch` has its own, of weighted points and in a tenth of the time.
+    """
+    return np.asarray(np.linalg.eigh(offsets.transpose(0, 2, 1) @ offsets)[1][:, :, 0])
 
 
 def faces_alike(raster: Raster, points: SurfaceCoordinates, normals: Array) -> NDArray[np.bool_]:

@@ -62,12 +62,15 @@ class Condition(Structure):
     max_edge_gap : largest distance in mm between an edge's curve and one of its faces at the same parameter, and
         between an edge's end and its vertex
     max_tolerance : largest tolerance of a face, edge or vertex in mm
+    gap_at, tolerance_at : names of the edge that gapes so, and of the sub-shape with that tolerance
     boolean_check : errors that the check for Boolean operations reports for each body by itself; None where it did not
         run or did not finish. Where bodies touch or run into each other is no flaw of either
     """
 
     max_edge_gap: float
     max_tolerance: float
+    gap_at: str
+    tolerance_at: str
     boolean_check: BodyErrors = (None,)
 
     @property
@@ -110,10 +113,10 @@ class Certificate:
         sentences = []
         if self.excess_gap > GAP_LIMIT:
             sentences.append(f"The largest edge gap grew from {self.before.max_edge_gap:.2g} to "
-                             f"{self.after.max_edge_gap:.2g} mm.")
+                             f"{self.after.max_edge_gap:.2g} mm, at {self.after.gap_at}.")
         if self.after.max_tolerance > self.tolerance_line:
             sentences.append(f"The largest tolerance grew from {self.before.max_tolerance:.2g} to "
-                             f"{self.after.max_tolerance:.2g} mm.")
+                             f"{self.after.max_tolerance:.2g} mm, at {self.after.tolerance_at}.")
         return sentences
 
     def as_dict(self) -> dict[str, object]:
@@ -180,21 +183,28 @@ def structure(shape: Part.Shape) -> Structure:
 def condition(shape: Part.Shape, boolean_check: BodyErrors = (None,), known: Structure | None = None) -> Condition:
     """The condition of one shape; ``boolean_check`` is taken from `boolean_checks`, ``known`` from `structure`."""
     own = known or structure(shape)
-    return Condition(own.topology, own.invalid, own.closed_shells, max_edge_gap(shape), max_tolerance(shape),
+    gap, tolerance = max_edge_gap(shape, own.topology), max_tolerance(shape)
+    return Condition(own.topology, own.invalid, own.closed_shells, gap[0], tolerance[0], gap[1], tolerance[1],
                      boolean_check)
 
 
-def max_tolerance(shape: Part.Shape) -> float:
-    """Largest tolerance of a face, edge or vertex in mm."""
-    return max(part.Tolerance for parts in (shape.Faces, shape.Edges, shape.Vertexes) for part in parts)
+def max_tolerance(shape: Part.Shape) -> tuple[float, str]:
+    """Largest tolerance of a face, edge or vertex in mm, and which of them has it."""
+    named = (("Face", shape.Faces), ("Edge", shape.Edges), ("Vertex", shape.Vertexes))
+    return max(((float(part.Tolerance), f"{kind}{number}") for kind, parts in named
+                for number, part in enumerate(parts, 1)), key=lambda found: found[0])
 
 
-def max_edge_gap(shape: Part.Shape) -> float:
-    """Largest distance in mm between an edge and its faces, through the pcurves, and between its ends and vertices."""
-    ends = [distance for edge in shape.Edges if not edge.Degenerated for distance in _end_gaps(edge)]
-    sides = [distance for face in shape.Faces for edge in face.Edges if not edge.Degenerated
+def max_edge_gap(shape: Part.Shape, adjacency: Topology) -> tuple[float, str]:
+    """Largest distance in mm between an edge and its faces, through the pcurves, and between its ends and vertices, and
+    which edge that is."""
+    ends = [(distance, number) for number, edge in enumerate(shape.Edges) if not edge.Degenerated
+            for distance in _end_gaps(edge)]
+    sides = [(distance, number) for face, numbers in zip(shape.Faces, adjacency.face_edges, strict=True)
+             for edge, number in zip(face.Edges, numbers, strict=True) if not edge.Degenerated
              for distance in _side_gaps(face, edge)]
-    return float(max(ends + sides, default=0.0))
+    largest, number = max(ends + sides, default=(0.0, 0), key=lambda found: found[0])
+    return float(largest), f"Edge{number + 1}"
 
 
 def _end_gaps(edge: Part.Edge) -> list[float]:

@@ -16,12 +16,13 @@ from scipy.spatial import cKDTree
 from ..errors import RefusedError
 from ..registration.arrays import Array
 from ..registration.joint import SensorProfile
+from ..registration.robust_weights import MAD_TO_SIGMA
 from .covariogram import covariogram, fit
 
 Index = NDArray[np.intp]
 
 _LEAST_POINTS = 1000
-_MAD, _TRIM = 1.4826, 4.5
+_TRIM = 4.5
 _MOST_LOST = 0.3
 _PER_CELL = 4.0
 _NEIGHBOURS = 40
@@ -148,7 +149,7 @@ def _normals(points: Array, places: Array) -> tuple[Array, Array]:
 def _trimmed(height: Array) -> NDArray[np.bool_]:
     """Which heights lie within 4.5 robust standard deviations of their median."""
     off = np.abs(height - np.median(height))
-    return off <= _TRIM * _MAD * np.median(off)
+    return off <= _TRIM * MAD_TO_SIGMA * np.median(off)
 
 
 def _cell_size(points: Array, scans: int) -> float:

@@ -1450,12 +1450,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Aufgabe braucht etwa {0} GB Speicher, und {1} GB sind frei: Nennen Sie die Flächen, die verformt werden sollen, oder prüfen Sie die Einheiten von Modell und Scan.</translation>
     </message>
     <message>
-      <source>The largest edge gap grew from {0} to {1} mm.</source>
-      <translation>Die größte Lücke an einer Kante wuchs von {0} auf {1} mm.</translation>
+      <source>The largest edge gap grew from {0} to {1} mm, at {2}.</source>
+      <translation>Die größte Lücke an einer Kante wuchs von {0} auf {1} mm, an {2}.</translation>
     </message>
     <message>
-      <source>The largest tolerance grew from {0} to {1} mm.</source>
-      <translation>Die größte Toleranz wuchs von {0} auf {1} mm.</translation>
+      <source>The largest tolerance grew from {0} to {1} mm, at {2}.</source>
+      <translation>Die größte Toleranz wuchs von {0} auf {1} mm, an {2}.</translation>
     </message>
     <message>
       <source>The lattice {0} is unknown or too small: a cubic lattice has 4 or more control points in each direction, for instance 10x10.</source>

@@ -8,7 +8,9 @@ import Part
 import pytest
 
 from ffds_workbench import RESOURCES, api
-from ffds_workbench.api import methods
+from ffds_workbench.api import methods, other_part
+from ffds_workbench.brep import workpiece
+from ffds_workbench.scan.cloud import PointCloud
 
 NOISE = 0.05
 
@@ -126,6 +128,13 @@ def test_a_scan_of_another_part_or_place_is_refused_before_the_solve(other, monk
     monkeypatch.setattr(methods, "register_joint", lambda *_: pytest.fail("the solve was begun"))
     with pytest.raises(api.RefusedError, match=message):
         api.register(model, points)
+
+
+def test_a_scan_near_the_edges_of_all_faces_is_told_by_these_alone(monkeypatch):
+    """Of a bar that is thin beside its length no face has to be looked at."""
+    monkeypatch.setattr(other_part, "make_raster", lambda *_: pytest.fail("a face was looked at"))
+    points = np.random.default_rng(3).uniform([0, 0, 4], [100, 4, 4], (500, 3))
+    other_part.refuse_other_part(workpiece.read(Part.makeBox(100, 4, 4)), PointCloud(points))
 
 
 def test_an_array_of_another_shape():

@@ -2,6 +2,8 @@
 """Foreign model files cannot take the process along: each of these ended it, or never came back, when read here."""
 from __future__ import annotations
 
+import importlib
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -149,6 +151,63 @@ def test_a_file_that_would_be_unpacked_elsewhere(document):
     assert not list(document.parent.glob("**/stray*"))
 
 
+@pytest.fixture
+def trap(tmp_path, monkeypatch):
+    """A module that leaves a file behind when it is run, installed as a workbench in every FreeCAD that is started."""
+    home = tmp_path / "home" / "Mod" / "Trap"
+    home.mkdir(parents=True)
+    (home / "Init.py").write_text("")
+    (home / "ffds_trap.py").write_text(
+        f"open({str(tmp_path / 'sprung')!r}, 'w').close()\nclass Proxy:\n    pass\n")
+    monkeypatch.setenv("FREECAD_USER_HOME", str(tmp_path / "home"))
+    monkeypatch.syspath_prepend(str(home))
+    sys.modules.pop("ffds_trap", None)
+    return tmp_path / "sprung"
+
+
+def _with_a_proxy(folder):
+    """A document with a box that a class of the trap looks after."""
+    made = FreeCAD.newDocument("Proxied", hidden=True, temp=True)
+    item = made.addObject("Part::FeaturePython", "Box")
+    item.Shape = Part.makeBox(1, 2, 3)
+    item.Proxy = importlib.import_module("ffds_trap").Proxy()
+    made.saveAs(str(folder / "m.FCStd"))
+    FreeCAD.closeDocument(made.Name)
+    return folder / "m.FCStd"
+
+
+def test_what_proxies_name_is_not_run(tmp_path, trap):
+    path = _with_a_proxy(tmp_path)
+    with zipfile.ZipFile(path) as archive:
+        assert b"ffds_trap" in archive.read("Document.xml")
+    trap.unlink()
+    assert len(model_file.read(path).shape.Faces) == 6
+    assert not trap.exists()
+
+
+def test_what_types_name_is_not_run(document, trap):
+    changed = rewritten(document, b'type="Part::Box"', b'type="ffds_trap::Box"')
+    assert "damaged" in refused(changed)
+    assert not trap.exists()
+
+
+def test_links_to_other_files_are_not_followed(tmp_path, trap):
+    """A link to a document with a trap in it, beside this one, and an object of its own."""
+    other = _with_a_proxy(tmp_path)
+    made = FreeCAD.newDocument("Linking", hidden=True, temp=True)
+    made.saveAs(str(tmp_path / "linking.FCStd"))
+    opened = FreeCAD.openDocument(str(other), hidden=True)
+    made.addObject("App::Link", "Link").LinkedObject = opened.Box
+    made.addObject("Part::Box", "Own")
+    made.recompute()
+    made.save()
+    FreeCAD.closeDocument(made.Name)
+    FreeCAD.closeDocument(opened.Name)
+    trap.unlink()
+    assert model_file.read(tmp_path / "linking.FCStd").label == "Own"
+    assert not trap.exists()
+
+
 def test_entities_in_a_document(document):
     laughs = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10}">' for i in range(1, 12))
     text = f'<!DOCTYPE Document [<!ENTITY l0 "ha">{laughs}]><Document l="&l11;" '.encode()
@@ -178,7 +237,7 @@ def test_containers_of_documents(document):
     def check(state):
         damaged.write_bytes(mutations.mutated(content, [content], np.random.default_rng(state)))
         try:
-            reader._check_archive(damaged)
+            reader._checked_archive(damaged)
         except reader._DAMAGED:
             return
 

@@ -91,15 +91,17 @@ def _gaps(name: str, function: ast.FunctionDef, of_class: str) -> Iterator[str]:
 
 
 def _fields(path: Path) -> Iterator[str]:
-    """Fields of public classes of a module that their docstrings leave out, or arrays without a shape."""
-    for node in ast.parse(path.read_text("utf-8")).body:
+    """Fields of public classes of a module that neither their docstrings nor the comments beside them tell, or arrays
+    without a shape."""
+    lines = path.read_text("utf-8").splitlines()
+    for node in ast.parse("\n".join(lines)).body:
         if isinstance(node, ast.ClassDef) and node.name in _names(path):
             text = ast.get_docstring(node) or ""
             for item in node.body:
                 if isinstance(item, ast.AnnAssign) and not ast.unparse(item.target).startswith("_"):
                     name = ast.unparse(item.target)
                     named = re.findall(rf"(?<![\w.]){re.escape(name)}(?!\w)(.*(?:\n.*)?)", text)
-                    if not named:
+                    if not named and "  # " not in lines[item.lineno - 1]:
                         yield f"{node.name}.{name} is not explained"
                     elif _is_array(item.annotation) and not any(map(SHAPE.search, named)):
                         yield f"{node.name}.{name} has no shape"
@@ -108,6 +110,20 @@ def _fields(path: Path) -> Iterator[str]:
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_fields_are_told(path):
     assert not list(_fields(path))
+
+
+@pytest.mark.parametrize("name", ["settings", "search_settings"])
+def test_settings_of_the_alignment_say_where_they_come_from(name):
+    """In one of three words, in the comment beside them or in the line below."""
+    lines = (PACKAGE / "registration" / "rigid" / f"{name}.py").read_text("utf-8").splitlines()
+    classes = [node for node in ast.parse("\n".join(lines)).body if isinstance(node, ast.ClassDef)]
+    settings = [node for node in classes if node.name.endswith("Settings") and node.name != "RigidSettings"]
+    assert settings
+    for node in settings:
+        for item in node.body:
+            if isinstance(item, ast.AnnAssign):
+                told = "\n".join(line for line in lines[item.lineno - 1 : (item.end_lineno or item.lineno) + 1])
+                assert re.search(r"# .*\b(theory|unit|calibrated)\b", told), f"{node.name}.{ast.unparse(item.target)}"
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))

@@ -20,7 +20,7 @@ from ffds_workbench import api
 from ffds_workbench.brep import workpiece
 from ffds_workbench.brep.simulated_scan import scene_of as sensor_target_of
 from ffds_workbench.registration.motions import angle, apply, best_fit, describe_difference, motion, shift
-from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, align, target_of
+from ffds_workbench.registration.rigid import AMBIGUOUS, FAILED, OK, RigidSettings, SampleSettings, align, target_of
 from ffds_workbench.registration.rigid.deformation.deformed_pose import surface_cells
 from ffds_workbench.registration.rigid.deformation.displacement_field import DisplacementField, displacement_basis
 from ffds_workbench.registration.rigid.refine.scan_rims import ScanEnds, find_scan_ends, points_near_rims
@@ -380,7 +380,7 @@ def test_real_weld_part(shared_data: Path):
     raw = api.read_scan(folder / "scan_robot_laser_60deg.pcd").points
     known = np.array(json.loads((folder / "pose.json").read_text())["T_model_scan_mm"])
     found = align(target_of(faces), raw, "global")
-    dense = cKDTree(target_of(faces, 250_000).samples.points)
+    dense = cKDTree(target_of(faces, RigidSettings(samples=SampleSettings(250_000))).samples.points)
     (fitness, rmse), (known_fitness, known_rmse) = (
         (float((d < 4).mean()), float(np.sqrt((d[d < 4] ** 2).mean())))
         for d in (dense.query(apply(pose, 1000 * raw))[0] for pose in (found.T_model_scan, known)))

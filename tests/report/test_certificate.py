@@ -9,7 +9,7 @@ import Part
 import pytest
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.report.certificate import Certificate, certify, condition, enforce, max_edge_gap, structure
+from ffds_workbench.report.certificate import Certificate, certify, condition, enforce, structure
 
 SHIFT = 0.0125
 
@@ -48,25 +48,29 @@ def test_analytic_shapes_have_no_gap(shape):
     """Rounding of coordinates of about 10 mm is 1e-15; OCCT's fillets are exact to 1e-12."""
     placed = shape.copy()
     placed.Placement = FreeCAD.Placement(FreeCAD.Vector(100, -50, 30), FreeCAD.Rotation(FreeCAD.Vector(1, 2, 3), 40))
-    assert max_edge_gap(placed) < 1e-11
+    assert condition(placed).max_edge_gap < 1e-11
 
 
 def test_a_known_gap_is_found():
-    assert max_edge_gap(box_with_shifted_edge()) == pytest.approx(SHIFT, abs=1e-9)
+    shifted = box_with_shifted_edge()
+    found = condition(shifted)
+    assert found.max_edge_gap == pytest.approx(SHIFT, abs=1e-9)
+    assert found.gap_at == next(f"Edge{number}" for number, edge in enumerate(shifted.Edges, 1)
+                                if not any(vertex.X or vertex.Y for vertex in edge.Vertexes))
 
 
 def test_a_grown_gap_is_a_problem_beyond_the_nominals_own():
     box, shifted = Part.makeBox(10, 20, 30), box_with_shifted_edge()
     grown = certify(box, shifted, boolean_limit=None)
-    assert any("gap" in sentence for sentence in grown.problems())
+    assert any(f"gap grew from 0 to 0.013 mm, at {grown.after.gap_at}." in sentence for sentence in grown.problems())
     assert grown.excess_gap == pytest.approx(SHIFT, abs=1e-9)
     assert certify(shifted, shifted, boolean_limit=None).excess_gap == 0
 
 
 def test_a_grown_tolerance_is_a_problem():
     box, loose = Part.makeBox(10, 20, 30), Part.makeBox(10, 20, 30)
-    loose.fixTolerance(0.01)
-    assert [s for s in certify(box, loose, None).problems() if "tolerance" in s]
+    loose.Vertexes[4].fixTolerance(0.01)
+    assert "from 1e-07 to 0.01 mm, at Vertex5." in certify(box, loose, None).problems()[-1]
     assert not certify(loose, loose, None).problems()
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import struct
+import tempfile
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -16,13 +17,14 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import Element
 
 import FreeCAD
 import Part
 
 from ...errors import InputError
 from ...scan import xml_text
-from . import step_colours
+from . import harmless_document, step_colours
 from .step_colours import Decoration
 
 DOCUMENT = ".fcstd"
@@ -81,8 +83,8 @@ def _read_document(path: Path, label: str | None) -> FileContent:
     from . import document_colours
 
     try:
-        _check_archive(path)
-        with _opened(path) as document:
+        root = _checked_archive(path)
+        with _opened(path, root) as document:
             item = _pick(path, document, label)
             colours = document_colours.read(path, item.Name)
             return FileContent(placed_shape(item), item.Label, Decoration(colours=colours))
@@ -90,13 +92,14 @@ def _read_document(path: Path, label: str | None) -> FileContent:
         raise InputError(f"The model {path} is damaged or not a FreeCAD document.") from error
 
 
-def _check_archive(path: Path) -> None:
-    """Refuse a document whose files would be unpacked to other folders than its own (ValueError)."""
+def _checked_archive(path: Path) -> Element:
+    """The text of a document, refused if files would be unpacked to other folders than its own (ValueError)."""
     with zipfile.ZipFile(path) as archive:
         root = xml_text.parse(archive.read("Document.xml"))
     names = [element.get(key, "") for element in root.iter("FileIncluded") for key in ("file", "data")]
     if any(name and (name == ".." or not _PLAIN_NAME.fullmatch(name)) for name in names):
         raise ValueError("a file of the document belongs into another folder")
+    return root
 
 
 def open_document(path: Path) -> FreeCAD.Document | None:
@@ -108,17 +111,20 @@ def open_document(path: Path) -> FreeCAD.Document | None:
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator[FreeCAD.Document]:
-    """The document of a file: the one that is open already and stays so, or one opened for the moment."""
+def _opened(path: Path, root: Element) -> Iterator[FreeCAD.Document]:
+    """The document of a file: the one that is open already and stays so, or one opened for the moment, in which nothing
+    is run that the file names."""
     document = open_document(path)
     if document is not None:
         yield document
         return
-    document = FreeCAD.openDocument(str(path), hidden=True)
-    try:
-        yield document
-    finally:
-        FreeCAD.closeDocument(document.Name)
+    with tempfile.TemporaryDirectory(prefix="ffds-") as folder:
+        harmless = harmless_document.copy(path, root, Path(folder)) if harmless_document.is_foreign(root) else path
+        document = FreeCAD.openDocument(str(harmless), hidden=True)
+        try:
+            yield document
+        finally:
+            FreeCAD.closeDocument(document.Name)
 
 
 def placed_shape(item: object) -> Part.Shape:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Step 1 of the paper: many poses proposed, the best ones refined, each verified against the model, one kept."""
+"""Step 1 of the paper: many poses proposed, the best ones refined, each weighed against the model, one kept."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -7,23 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Array
-from ..scan_sketch import Plane, Sketch, find_table, sketch_of
+from ..scan_sketch import find_table, sketch_of
 from .alignment_result import FAILED, Alignment
-from .deformation import NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS
-from .evidence import weigh_pose
-from .hypothesis import Hypothesis, best_hypothesis, hypothesis_of, nearest_hypothesis, promising, rotate_normals
+from .evidence import LooseScan, match_scan, weigh_match
+from .hypothesis import Hypothesis, choose, clearly_right, is_good, matched_on, promising, refined
 from .model import Target
 from .polish import polish
-from .quick import align_quickly
-from .search import LOCAL_SEARCH, THOROUGH_SEARCH, SearchStage, propose, starts_around, starts_of
 from .scan_unit import plausible_scales
-from .verdict import alignment_of, failed_alignment
-
-_SURE_CERTAINTY = 0.95
-"""Certainty from which the surroundings of the best pose are not searched once more."""
-_LEAST_POINTS = 50
-_ROUGH_STRIDE = 4
-"""Of the points of the scan that tell which poses are worth a closer look."""
+from .search import propose, starts_of
+from .settings import Effort
+from .verdict import Answer, alignment_of, failed_alignment
 
 
 def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[float] | None = None,
@@ -32,7 +25,7 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
 
     Parameters
     ----------
-    target : the model, see ``target_of``
+    target : the model, see ``target_of``, and with it the settings
     scan : (n, 3) in mm, or in a unit that is to be recognised
     mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" looks close around the
         present pose, and of poses that fit alike takes the nearest
@@ -43,12 +36,16 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
     -----
     Coarse to fine: hundreds of poses with 120 points each, by Gauss-Newton steps on a look-up table of nearest samples
     that face the same way; the few dozen that are left with more points; the best dozen against the exact faces, each
-    verified. The best one is polished on thousands of points.
+    verified. The best one is polished on thousands of points. A scan that lies nearby is first tried with little
+    effort.
     """
-    scales = plausible_scales(scan, target.size) if scales is None else scales
+    scales = plausible_scales(scan, target.size, target.settings.units) if scales is None else scales
     answer: Alignment | None = None
     for scale in scales:
-        attempt = _align_in_mm(target, scan * scale if scale != 1.0 else scan, mode, scale, np.random.default_rng(seed))
+        generator = np.random.default_rng(seed)
+        tries = (_align(target, scan * scale if scale != 1.0 else scan, effort, scale, generator)
+                 for effort in target.settings.efforts(mode))
+        attempt = next(found for found in tries if found is not None)
         if answer is None or (attempt.verdict != FAILED) > (answer.verdict != FAILED):
             answer = attempt
         if answer.verdict != FAILED:
@@ -59,43 +56,70 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
     return answer
 
 
-def _align_in_mm(target: Target, scan: Array, mode: str, scale: float, generator: np.random.Generator) -> Alignment:
-    if mode == "fine":
-        quick = align_quickly(target, scan, scale, generator)
-        if quick is not None:
-            return quick
-    sketch = sketch_of(scan, generator)
-    table = find_table(sketch, target.largest_projection, generator)
+def _align(target: Target, points: Array, effort: Effort, scale: float,
+           generator: np.random.Generator) -> Alignment | None:
+    """The alignment of points (n, 3) in mm with some effort; None where the answer has to be clear and is not."""
+    settings = target.settings.verdict
+    whole = _look_at(target, points, effort, generator)                    # even points with normals, without a table
+    scan = whole.every(effort.stride)
+    if len(scan.sketch.points) < settings.least_points or (effort.clear and scan.hides_sides):
+        return None if effort.clear else failed_alignment(
+            f"fewer than {settings.least_points} points of the scan belong together")
+    hypotheses = _search(scan, starts_of(scan, effort.starts), effort, generator)  # Gauss-Newton from many starts
+    if not hypotheses:
+        return None
+    best = choose(hypotheses, effort.prefers)
+    if effort.look_around and best.evidence.certainty < settings.sure_certainty:
+        around = starts_of(scan, "around", best.pose)                      # it may have settled beside the right one
+        hypotheses += _search(scan, around, target.settings.around, generator)
+        best = choose(hypotheses, effort.prefers)
+    answer = _polished(whole, scan, best)                                  # Kabsch over the whole part, deformed or not
+    if effort.clear and not is_good(answer.evidence, target):
+        return None
+    return alignment_of(scan, answer, hypotheses, scale)                   # good enough, and the only one?
+
+
+def _look_at(target: Target, points: Array, effort: Effort, generator: np.random.Generator) -> LooseScan:
+    """Even points of the scan, those of a table left out."""
+    sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
+    extent = np.linalg.norm(sketch.points - sketch.points.mean(axis=0), axis=1).max()
+    # a point too far from the centroid cannot lie on the part
+    table = None
+    if extent > effort.table_from * target.size:
+        table = find_table(sketch, target.largest_projection, generator)
     if table is not None:
-        scan = scan[table.heights(scan) > table.tolerance]
-        sketch = sketch_of(scan, generator)
-    if len(sketch.points) < _LEAST_POINTS:
-        return failed_alignment(f"fewer than {_LEAST_POINTS} points of the scan belong together")
-    if mode == "local":
-        verified = _search(target, sketch, table, starts_around(target, sketch, np.eye(4)), LOCAL_SEARCH, generator)
-        best = nearest_hypothesis(verified, sketch.points.mean(axis=0))
-    else:
-        verified = _search(target, sketch, table, starts_of(target, sketch, mode), THOROUGH_SEARCH, generator)
-        best = best_hypothesis(verified, mode, target, sketch)
-        if best.evidence.certainty < _SURE_CERTAINTY:
-            verified += _search(target, sketch, table, starts_around(target, sketch, best.pose), LOCAL_SEARCH,
-                                generator)
-            best = best_hypothesis(verified, mode, target, sketch)
-    pose = polish(target, sketch, best.pose, best.normals)
-    # the pose has moved little: of the fits with a smooth deformation and without one the best counts
-    normals = rotate_normals(best, pose)
-    fits = best.evidence, *(weigh_pose(target, sketch, pose, normals, table, rounds)
-                            for rounds in (NO_DEFORMATION_ROUNDS, SOFT_DEFORMATION_ROUNDS))
-    best = Hypothesis(pose, max(fits, key=lambda evidence: evidence.score), normals)
-    return alignment_of(target, sketch, table, best, verified, scale)
+        points = points[table.heights(points) > table.tolerance]
+        sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
+    return LooseScan(target, sketch, table)
 
 
-def _search(target: Target, sketch: Sketch, table: Plane | None, starts: Array, stages: Sequence[SearchStage],
-            generator: np.random.Generator) -> list[Hypothesis]:
-    """The most promising poses, refined and verified."""
-    candidates = propose(target, sketch, starts, stages, generator)
-    few = sketch.every(_ROUGH_STRIDE)
-    rough = [hypothesis_of(target, few, table, pose, signs, STIFF_DEFORMATION_ROUNDS)
-             for pose, signs in zip(candidates.poses, candidates.signs, strict=True)]
-    return [hypothesis_of(target, sketch, table, found.pose, candidates.signs[k], SOFT_DEFORMATION_ROUNDS)
-            for k, found in promising(rough, target)]
+def _search(scan: LooseScan, starts: Array, effort: Effort, generator: np.random.Generator) -> list[Hypothesis]:
+    """The most promising poses, refined and weighed, rung by rung on more points and with more deformation; none where
+    the answer has to be clear and is not."""
+    found = propose(scan, starts, effort.stages, generator)
+    # a sheet is seen from one side, and only its rims tell which
+    sides = (1.0, -1.0) if effort.both_sides else (1.0,)
+    tried = [(pose, side * signs) for pose, signs in zip(found.poses, found.signs, strict=True) for side in sides]
+    hypotheses: list[Hypothesis] = []
+    for rung in effort.rungs:
+        hypotheses = ([refined(scan, pose, signs, rung, effort) for pose, signs in tried] if rung.afresh else
+                      [matched_on(one, rung) for one in hypotheses])
+        if not effort.clear:
+            hypotheses = promising(hypotheses)
+            tried = [(one.pose, one.signs) for one in hypotheses]
+        elif clear := clearly_right(hypotheses, bool(rung.rounds)):
+            return clear
+    return [] if effort.clear else hypotheses
+
+
+def _polished(whole: LooseScan, scan: LooseScan, best: Hypothesis) -> Answer:
+    """The best pose on all points of the ``whole`` scan, weighed on those of ``scan``: of the fits with the deformation
+    and without one the better counts."""
+    pose, deformation = polish(whole.target, whole.sketch, best.pose, best.normals_of(whole.sketch, best.pose),
+                               best.deformation)
+    normals = best.normals_of(scan.sketch, pose)
+    if deformation is None and best.deformation.is_none:                   # and so it was weighed before
+        return Answer(pose, best.evidence, normals)
+    weighed = [weigh_match(scan, pose, normals, match_scan(scan, pose, normals, (), start)[0])
+               for start in ((None,) if deformation is None else (None, deformation))]
+    return Answer(pose, max([best.evidence, *weighed], key=lambda evidence: evidence.score), normals)

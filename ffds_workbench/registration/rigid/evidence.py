@@ -2,7 +2,7 @@
 """Does a pose explain the scan, and the scan the part? Judged against the model, whatever proposed the pose."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,21 +12,42 @@ from ..arrays import Array
 from ..motions import apply
 from ..parallel import workers
 from ..scan_sketch import Plane, Sketch
-from .deformation import (NO_DEFORMATION_ROUNDS, STIFF_DEFORMATION_ROUNDS, DisplacementField, Match, Rounds,
-                          match_deformed)
+from .deformation import DisplacementField, Match, match_deformed
 from .model import Target
+from .settings import Rounds
 
-_NORMALS_AGREE = 0.6
-_HIDING_NOISE = 0.003
-"""Noise above this share of the part's size hides which side of a sheet is seen, and small features."""
-_CAMERAS, _NEIGHBOURS = 3, 4
-"""Number of cameras that are inferred; and number of points near a sample, one of which has to face as the sample does:
-the nearest may lie on the far side of a sheet."""
-_DEFORMATION_PENALTY = 6.0
-"""Penalty on the score per deformation relative to the part's size: bending another part into this one by 4 % costs
-0.24."""
-_DEFORMATION_REACH = 0.06
-"""How far the smooth deformation may reach, as a share of the part's size."""
+_LEAST_EXPLAINED = 12
+"""Points below which nothing is covered (theory: two for each degree of freedom)."""
+
+
+@dataclass(frozen=True)
+class LooseScan:
+    """A scan that may show the part, and lies nobody knows where.
+
+    Attributes
+    ----------
+    target : the part
+    sketch : even points of the scan, without the table
+    table : the plane beside the part, scan coordinates, or None
+    """
+
+    target: Target
+    sketch: Sketch
+    table: Plane | None
+
+    @property
+    def hides_sides(self) -> bool:
+        """Whether the noise is so large that normals and the sides of sheets are guesses."""
+        return self.sketch.noise > self.target.settings.evidence.hiding_noise * self.target.size
+
+    @property
+    def coarse(self) -> LooseScan:
+        """The same before a part with a quarter of the samples."""
+        return replace(self, target=self.target.coarse)
+
+    def every(self, stride: int) -> LooseScan:
+        """The same of fewer points, one of every ``stride``."""
+        return self if stride == 1 else replace(self, sketch=self.sketch.every(stride))
 
 
 @dataclass(frozen=True)
@@ -42,6 +63,7 @@ class Evidence:
     missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
     pierced : share of the part that would lie behind the table
     bent : root mean square of the smooth deformation, as a share of the part's size
+    score : rank among poses, larger is better, 1 is perfect
     """
 
     explained: float
@@ -50,11 +72,7 @@ class Evidence:
     missing: float
     pierced: float
     bent: float
-
-    @property
-    def score(self) -> float:
-        """Rank among poses, larger is better, 1 is perfect."""
-        return 1.0 - self.misfit - 0.5 * min(self.missing, 1.0) - 2.0 * self.pierced - _DEFORMATION_PENALTY * self.bent
+    score: float
 
     @property
     def certainty(self) -> float:
@@ -62,92 +80,80 @@ class Evidence:
         return 0.5 * (self.score + self.explained)
 
 
-def hides_sides(target: Target, sketch: Sketch) -> bool:
-    """Whether the noise is so large that normals and the sides of sheets are guesses."""
-    return sketch.noise > _HIDING_NOISE * target.size
+def match_scan(scan: LooseScan, pose: Array, normals: Array, rounds: Rounds,
+               start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
+    """The scan at a ``pose`` (4, 4), with outward ``normals`` (n, 3) of its sketch in model coordinates, matched with
+    the part in ``rounds`` of a smooth deformation that goes on from ``start``; see ``match_deformed``."""
+    reach = 2.0 * scan.target.settings.deformation.reach * scan.target.size
+    # under large noise a smooth deformation could not be told from a wrong pose
+    return match_deformed(scan.target, apply(pose, scan.sketch.points), normals, reach,
+                          () if scan.hides_sides else rounds, start)
 
 
-def facing_normals(target: Target, points: Array) -> Array:
-    """Normals of the part below points (n, 3) in model coordinates, in place of normals that are guesses."""
-    return target.samples.normals[target.tree.query(points)[1]]
-
-
-def weigh_pose(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
-               rounds: Rounds = STIFF_DEFORMATION_ROUNDS) -> Evidence:
-    """Weigh a pose.
+def weigh_match(scan: LooseScan, pose: Array, normals: Array, found: Match) -> Evidence:
+    """What a match says of a pose.
 
     Parameters
     ----------
-    sketch : even points of the scan without the table
     pose : (4, 4), T_model_scan
     normals : (n, 3) outward normals of the sketch in model coordinates
-    table : the plane beside the part, scan coordinates
-    rounds : of the smooth deformation that is allowed for, see ``match_deformed``
+    found : the scan matched with the part at that pose
     """
-    return weigh_match(target, sketch, pose, normals, table, match_sketch(target, sketch, pose, normals, rounds)[0])
-
-
-def match_sketch(target: Target, sketch: Sketch, pose: Array, normals: Array, rounds: Rounds,
-                 start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
-    """The sketch matched with the part; see ``weigh_pose`` and ``match_deformed``."""
-    # under large noise a smooth deformation could not be told from a wrong pose
-    return match_deformed(target, apply(pose, sketch.points), normals, 2.0 * _DEFORMATION_REACH * target.size,
-                          NO_DEFORMATION_ROUNDS if hides_sides(target, sketch) else rounds, start)
-
-
-def weigh_match(target: Target, sketch: Sketch, pose: Array, normals: Array, table: Plane | None,
-                found: Match) -> Evidence:
-    """What a match says of a pose; see ``weigh_pose``."""
-    size, moved = target.size, apply(pose, sketch.points)
-    agree, explained, misfit = _explained(target, sketch, normals, found)
-    coverage, missing = _coverage(target, found.points[explained], normals[explained], sketch)
+    target, settings = scan.target, scan.target.settings.evidence
+    agree, explained, misfit = _explained(scan, normals, found)
+    coverage, missing = _coverage(target, found.points[explained], normals[explained], scan.sketch)
     pierced = 0.0
-    if table is not None:
+    if scan.table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
-        pierced = float(np.mean(table.heights(in_scan) < -max(table.tolerance, 0.04 * size)))
-    bent = float(np.sqrt(np.mean((moved - found.points)[agree] ** 2) * 3.0)) / size if agree.any() else 0.0
-    return Evidence(float(explained.mean()), misfit, coverage, missing, pierced, bent)
+        depth = max(scan.table.tolerance, settings.below_table * target.size)
+        pierced = float(np.mean(scan.table.heights(in_scan) < -depth))
+    off = (apply(pose, scan.sketch.points) - found.points)[agree]
+    bent = float(np.sqrt(np.mean(off**2) * 3.0)) / target.size if agree.any() else 0.0
+    score = (1.0 - misfit - settings.missing_weight * min(missing, 1.0) - settings.pierced_weight * pierced
+             - settings.bent_weight * bent)
+    return Evidence(float(explained.mean()), misfit, coverage, missing, pierced, bent, score)
 
 
-def misfit_of(target: Target, sketch: Sketch, normals: Array, found: Match) -> float:
+def misfit_of(scan: LooseScan, normals: Array, found: Match) -> float:
     """The misfit alone of the evidence that ``weigh_match`` gives."""
-    return _explained(target, sketch, normals, found)[2]
+    return _explained(scan, normals, found)[2]
 
 
-def _explained(target: Target, sketch: Sketch, normals: Array, found: Match,
-               ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
+def _explained(scan: LooseScan, normals: Array, found: Match) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
     """Which points face as the part does, which of them lie on it, and the misfit of all."""
+    target, noise, settings = scan.target, scan.sketch.noise, scan.target.settings.evidence
     beside = _distance_beyond_faces(target, found.points, found.nearest, found.height, found.normal)
-    agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > _NORMALS_AGREE)
-    cap = max(0.008 * target.size, 4.0 * sketch.noise)
-    distance = np.where(agree, np.hypot(found.height, beside), cap + sketch.noise)
-    return agree, agree & (distance < cap), float(np.clip((distance - sketch.noise) / cap, 0.0, 1.0).mean())
+    agree = np.isfinite(found.distance) & (np.einsum("ni,ni->n", normals, found.normal) > settings.agreeing_cosine)
+    cap = max(settings.cap * target.size, settings.cap_sigmas * noise)
+    distance = np.where(agree, np.hypot(found.height, beside), cap + noise)
+    return agree, agree & (distance < cap), float(np.clip((distance - noise) / cap, 0.0, 1.0).mean())
 
 
 def _distance_beyond_faces(target: Target, points: Array, nearest: NDArray[np.intp], height: Array,
                            normal: Array) -> Array:
     """Distance in mm along the surface from where the face ends to points that lie beyond; (n,)."""
     along = points - target.samples.points[nearest] - height[:, None] * normal
-    gap = np.maximum(np.linalg.norm(along, axis=1) - 1.5 * target.spacing, 0.0)
-    beyond = target.overshoot(points, nearest, _DEFORMATION_REACH * target.size)[0]
+    gap = np.maximum(np.linalg.norm(along, axis=1) - target.settings.evidence.rim_spacings * target.spacing, 0.0)
+    beyond = target.overshoot(points, nearest, target.settings.deformation.reach * target.size)[0]
     return np.maximum(gap, beyond)
 
 
 def _coverage(target: Target, points: Array, normals: Array, sketch: Sketch) -> tuple[float, float]:
     """Coverage of the visible surface, and what the cameras that best explain it ought to have seen besides."""
-    samples = target.even
-    if len(points) < 12:
+    samples, settings = target.even, target.settings.evidence
+    if len(points) < _LEAST_EXPLAINED:
         return 0.0, 1.0
-    reach = max(3.0 * sketch.spacing, 0.025 * target.size)
-    distance, index = cKDTree(points).query(samples.points, k=_NEIGHBOURS, distance_upper_bound=reach,
+    reach = max(settings.reach_spacings * sketch.spacing, settings.reach * target.size)
+    distance, index = cKDTree(points).query(samples.points, k=settings.neighbours, distance_upper_bound=reach,
                                             workers=workers(samples.points))
     padded = np.concatenate([normals, np.zeros((1, 3))])
-    covered = (np.isfinite(distance) & (np.einsum("nki,ni->nk", padded[index], samples.normals) > 0.5)).any(axis=1)
+    facing = np.einsum("nki,ni->nk", padded[index], samples.normals) > settings.seen_cosine
+    covered = (np.isfinite(distance) & facing).any(axis=1)
     seen, worth = np.zeros(len(covered), dtype=bool), np.where(covered, np.float32(1.0), np.float32(-1.0))
-    for _ in range(_CAMERAS):
+    for _ in range(settings.cameras):
         gain = target.sees @ np.where(seen, np.float32(0.0), worth)
         best = int(np.argmax(gain))
-        if gain[best] <= 0.02 * len(covered):
+        if gain[best] <= settings.least_gain * len(covered):
             break
         seen |= target.visible[best]
     missing = float((seen & ~covered).sum()) / max(float(covered.sum()), 1.0)

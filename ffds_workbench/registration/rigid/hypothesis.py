@@ -3,132 +3,172 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ..arrays import Array
 from ..motions import angle, apply, shift
-from ..scan_sketch import Plane, Sketch
-from .deformation import Rounds
-from .evidence import Evidence, facing_normals, hides_sides, weigh_pose
+from ..scan_sketch import Sketch
+from .deformation import DisplacementField, Match
+from .evidence import Evidence, LooseScan, match_scan, misfit_of, weigh_match
 from .model import Target
 from .polish import is_deformed
 from .refine import refine
+from .search_settings import Effort, Rung
 
-_ON_PART = 0.008
-"""A normal is flipped if the point is farther from the part than this share of its size as it is, and nearer with the
-normal flipped."""
-MOST_STRAY_NORMALS = 0.15
-"""Largest share of the normals that may be flipped one by one."""
-SCORE_MARGIN = 0.06
-"""Two poses fit equally well if their scores differ by less than this share of what the better one leaves
-unexplained."""
-SAME_TURN, SAME_SHIFT = 0.07, 0.03
-"""Poses closer than this (rad, share of the part's size) are one."""
-_PROMISING_MARGIN = 0.1
-"""A pose whose score on few points is lower than the best by more than this cannot be the best on many points."""
-_SETTLED_TURN, _SETTLED_SHIFT = 0.01, 0.005
-"""Poses closer than this (rad, share of the part's size) have converged to the same place."""
-_NEARER_BY = 0.005
-"""A pose counts as nearer than another if it is nearer by this share of the part's size, which is less than the
-thickness of a sheet."""
+_GATE, _SECOND_GATE = 0.08, 0.04
+"""Sizes, of the refinement of a pose and of the second one after stray normals were flipped (unit: what a deformation
+of two thirds of that leaves)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """A refined pose with what speaks for it and the outward normals it gives the sketch."""
+    """A pose that may be the right one.
 
+    Attributes
+    ----------
+    scan : what it was refined and weighed with
+    pose : (4, 4), T_model_scan
+    signs : (p,) for each of the scan's largest pieces +1 if its normals point out of the part, −1 if into it
+    normals : (n, 3) outward normals of the sketch in model coordinates
+    match, deformation : the scan matched with the part through that deformation
+    """
+
+    scan: LooseScan
     pose: Array
-    evidence: Evidence
+    signs: Array
     normals: Array
-    reason: str = "found"
+    match: Match
+    deformation: DisplacementField
+
+    @cached_property
+    def evidence(self) -> Evidence:
+        """What speaks for the pose."""
+        return weigh_match(self.scan, self.pose, self.normals, self.match)
+
+    @cached_property
+    def misfit(self) -> float:
+        """The evidence's misfit alone, which is told faster."""
+        return misfit_of(self.scan, self.normals, self.match)
+
+    def normals_of(self, sketch: Sketch, pose: Array) -> Array:
+        """Outward normals (m, 3) in model coordinates of a ``sketch`` of the same scan at a ``pose`` (4, 4) nearby."""
+        if sketch is self.scan.sketch:
+            return self.normals @ self.pose[:3, :3] @ pose[:3, :3].T
+        return outward_normals(sketch, self.signs) @ pose[:3, :3].T
 
 
-def hypothesis_of(target: Target, sketch: Sketch, table: Plane | None, pose: Array, signs: Array,
-                  rounds: Rounds) -> Hypothesis:
-    """The pose refined against the side of the part that the scan shows, and what speaks for it, a smooth deformation
-    allowed for that is fitted in these rounds."""
-    pose, normals = refine_on_side(target, sketch, pose, signs)
-    if not hides_sides(target, sketch):
-        near = max(_ON_PART * target.size, 4.0 * sketch.noise)
-        patched, turned = flip_stray_normals(target, sketch, pose, normals, near)
-        if 0.0 < turned < MOST_STRAY_NORMALS:
-            closer = refine(target.coarse, sketch.points, pose, (0.04 * target.size,), 8, patched @ pose[:3, :3])
-            patched = patched @ pose[:3, :3] @ closer[:3, :3].T
-            # of a deformed sheet some points lie nearer to the far side
-            if not is_deformed(target, sketch, closer, patched):
-                pose, normals = closer, patched
-    return Hypothesis(pose, weigh_pose(target.coarse, sketch, pose, normals, table, rounds), normals)
+def refined(scan: LooseScan, pose: Array, signs: Array, rung: Rung, effort: Effort) -> Hypothesis:
+    """The pose refined against the side of the part that the scan shows, matched in the rung's rounds.
+
+    Parameters
+    ----------
+    scan : even points of it, and the part
+    pose : (4, 4) to start from
+    signs : (p,) of the normals of its largest pieces
+    rung, effort : how well
+    """
+    scan = scan.every(rung.stride).coarse
+    pose, normals = _on_side(scan, pose, signs, effort)
+    if not scan.hides_sides:
+        pose, normals = _without_stray_normals(scan, pose, normals, effort.settle_steps)
+    return Hypothesis(scan, pose, signs, normals, *match_scan(scan, pose, normals, rung.rounds))
 
 
-def refine_on_side(target: Target, sketch: Sketch, pose: Array, signs: Array) -> tuple[Array, Array]:
+def matched_on(known: Hypothesis, rung: Rung) -> Hypothesis:
+    """The ``known`` hypothesis, its deformation led on in the rounds of a ``rung``."""
+    match, deformation = match_scan(known.scan, known.pose, known.normals, rung.rounds, known.deformation)
+    return replace(known, match=match, deformation=deformation)
+
+
+def _on_side(scan: LooseScan, pose: Array, signs: Array, effort: Effort) -> tuple[Array, Array]:
     """The pose after a few steps, and the outward normals of the sketch in the model's frame."""
-    light, gate = target.coarse, 0.08 * target.size
-    if hides_sides(target, sketch):
-        pose = refine(light, sketch.points, pose, (1.5 * gate, gate, 0.5 * gate), 8)
-        return pose, facing_normals(light, apply(pose, sketch.points))
-    normals = outward_normals(sketch, signs)
-    pose = refine(light, sketch.points, pose, (gate,), 12, normals)
+    target, gate = scan.target, _GATE * scan.target.size
+    some = slice(None, None, effort.refine_stride)
+    if scan.hides_sides:
+        pose = refine(target, scan.sketch.points[some], pose, (1.5 * gate, gate, 0.5 * gate), 8)
+        return pose, target.samples.normals[target.tree.query(apply(pose, scan.sketch.points))[1]]
+    normals = outward_normals(scan.sketch, signs)
+    pose = refine(target, scan.sketch.points[some], pose, (gate,), effort.refine_steps, normals[some])
     return pose, normals @ pose[:3, :3].T
 
 
 def outward_normals(sketch: Sketch, signs: Array) -> Array:
-    """Normals of the sketch, scan coordinates, with the signs (p,) of the largest pieces; (n, 3)."""
+    """Normals of the ``sketch``, scan coordinates, with the ``signs`` (p,) of the largest pieces; (n, 3)."""
     return signs[np.where(sketch.piece < len(signs), sketch.piece, 0)][:, None] * sketch.normals
 
 
-def flip_stray_normals(target: Target, sketch: Sketch, pose: Array, normals: Array, near: float) -> tuple[Array, float]:
-    """Normals turned round one by one where the point then lies ``near`` (mm) the part, and the share of those."""
-    moved = apply(pose, sketch.points)
-    off = np.flatnonzero(_heights(target.coarse, moved, normals) > near)
+def _without_stray_normals(scan: LooseScan, pose: Array, normals: Array, steps: int) -> tuple[Array, Array]:
+    """The pose refined in some more steps, and the normals, once those few are turned round whose points then lie on
+    the part, and do not as they are."""
+    target, settings = scan.target, scan.target.settings.verdict
+    near = max(settings.near * target.size, settings.near_sigmas * scan.sketch.noise)
+    moved = apply(pose, scan.sketch.points)
+    off = np.flatnonzero(_heights(target, moved, normals) > near)
     turned = np.zeros(len(moved), dtype=bool)
-    turned[off] = _heights(target.coarse, moved[off], -normals[off]) < near
-    return np.where(turned[:, None], -normals, normals), float(turned.mean())
+    turned[off] = _heights(target, moved[off], -normals[off]) < near
+    if not 0.0 < turned.mean() < settings.stray_normals:
+        return pose, normals
+    flipped = np.where(turned[:, None], -normals, normals)
+    closer = refine(target, scan.sketch.points, pose, (_SECOND_GATE * target.size,), steps, flipped @ pose[:3, :3])
+    flipped = flipped @ pose[:3, :3] @ closer[:3, :3].T
+    # of a deformed sheet some points lie nearer to the far side
+    return (pose, normals) if is_deformed(target, scan.sketch, closer, flipped) else (closer, flipped)
 
 
 def _heights(target: Target, points: Array, normals: Array) -> Array:
     """Distances in mm from the faces that face the same way, infinite where there are none nearby; (n,)."""
-    distance, nearest = target.nearest(points, normals, 0.05 * target.size)
+    distance, nearest = target.nearest(points, normals, target.settings.verdict.flip_reach * target.size)
     return np.where(np.isfinite(distance), np.abs(target.heights(points, nearest)[0]), np.inf)
 
 
-def rotate_normals(found: Hypothesis, pose: Array) -> Array:
-    """The outward normals in the model's frame after the pose has moved on a little."""
-    return found.normals @ found.pose[:3, :3] @ pose[:3, :3].T
+def clearly_right(hypotheses: Sequence[Hypothesis], deformed: bool) -> list[Hypothesis]:
+    """Those that explain the scan as it is, or where these are ``deformed`` fits, the one that fits far better than all
+    others; none where nothing is clear."""
+    if not deformed:
+        return [one for one in hypotheses if is_good(one.evidence, one.scan.target)
+                and not is_deformed(one.scan.target, one.scan.sketch, one.pose, one.normals)]
+    ratio = hypotheses[0].scan.target.settings.verdict.clear_misfit
+    best, *others = sorted(hypotheses, key=lambda one: one.misfit)
+    return [best] if all(best.misfit < ratio * other.misfit for other in others) else []
 
 
-def best_hypothesis(verified: Sequence[Hypothesis], mode: str, target: Target, sketch: Sketch) -> Hypothesis:
-    """The pose that scores best; of those that fit alike, a fine alignment takes the one that turns and moves least."""
-    good = equally_good(verified)
-    if mode != "global":
-        turned = [float(angle(v.pose, np.eye(4))) for v in good]
-        good = [v for v, turn in zip(good, turned, strict=True) if turn < min(turned) + SAME_TURN]
-        place = sketch.points.mean(axis=0)
-        moved = [float(shift(v.pose, np.eye(4), place)) for v in good]
-        good = [v for v, move in zip(good, moved, strict=True) if move < min(moved) + _NEARER_BY * target.size]
-    return max(good, key=lambda v: v.evidence.score)
+def is_good(evidence: Evidence, target: Target) -> bool:
+    """Whether the ``evidence`` for a pose on the ``target`` is good enough for a quick answer."""
+    settings = target.settings.verdict
+    return evidence.explained > settings.clear_explained and evidence.certainty > settings.least_certainty
 
 
-def promising(verified: Sequence[Hypothesis], target: Target) -> list[tuple[int, Hypothesis]]:
-    """Poses that may turn out the best, with their numbers; each but once."""
-    best = max(v.evidence.score for v in verified)
-    kept: list[tuple[int, Hypothesis]] = []
-    for k in sorted(range(len(verified)), key=lambda k: -verified[k].evidence.score):
-        one = verified[k]
-        known = any(angle(one.pose, v.pose) < _SETTLED_TURN
-                    and shift(one.pose, v.pose, target.centre) < _SETTLED_SHIFT * target.size for _, v in kept)
-        if one.evidence.score > best - _PROMISING_MARGIN and not known:
-            kept.append((k, one))
+def promising(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
+    """Poses that may turn out the best, the best first; each but once."""
+    target = hypotheses[0].scan.target
+    settings, best = target.settings.verdict, max(one.evidence.score for one in hypotheses)
+    kept: list[Hypothesis] = []
+    for one in sorted(hypotheses, key=lambda one: -one.evidence.score):
+        known = any(angle(one.pose, other.pose) < settings.settled_turn
+                    and shift(one.pose, other.pose, target.centre) < settings.settled_shift * target.size
+                    for other in kept)
+        if one.evidence.score > best - settings.promising and not known:
+            kept.append(one)
     return kept
 
 
-def equally_good(verified: Sequence[Hypothesis]) -> list[Hypothesis]:
-    """The poses that fit as well as the best one."""
-    best = max(v.evidence.score for v in verified)
-    return [v for v in verified if v.evidence.score >= best - SCORE_MARGIN * (1.0 - best)]
-
-
-def nearest_hypothesis(verified: Sequence[Hypothesis], place: Array) -> Hypothesis:
-    """Of the poses that fit alike, the one that moves ``place`` least: a start by hand says which side is meant."""
-    return min(equally_good(verified), key=lambda v: float(shift(v.pose, np.eye(4), place)))
+def choose(hypotheses: Sequence[Hypothesis], prefers: str) -> Hypothesis:
+    """The best pose; of those that fit alike the one with the best "score", the one that turns and moves the scan least
+    ("turn"), or the one that moves its middle least ("nearest": a start by hand says which side is meant)."""
+    target = hypotheses[0].scan.target
+    settings, place = target.settings.verdict, hypotheses[0].scan.sketch.points.mean(axis=0)
+    best = max(one.evidence.score for one in hypotheses)
+    good = [one for one in hypotheses if one.evidence.score >= best - settings.score_margin * (1.0 - best)]
+    turn = {id(one): float(angle(one.pose, np.eye(4))) for one in good}
+    move = {id(one): float(shift(one.pose, np.eye(4), place)) for one in good}
+    if prefers == "nearest":
+        return min(good, key=lambda one: move[id(one)])
+    if prefers == "turn":
+        least = min(turn.values())
+        good = [one for one in good if turn[id(one)] < least + settings.same_turn]
+        least = min(move[id(one)] for one in good)
+        good = [one for one in good if move[id(one)] < least + settings.nearer * target.size]
+    return max(good, key=lambda one: one.evidence.score)

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays import Array
+from .settings import UnitSettings
 
 SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
 """Factors to mm that scans come in beside 1; each may also be off the other way round."""
@@ -42,10 +43,6 @@ _REACH, _MARGIN = 0.03, 0.05
 part's. Physical: sheet metal springs back by a few hundredths of its size."""
 _LOOKED_AT, _NEAR_POINTS = 2_000, 50
 """Points of a scan that are looked at, and how many near the part tell anything."""
-_TRUSTED_RATIO = (0.3, 4.0)
-"""Ratio of scan size to part size at which the unit given is tried first: partial views below, clutter above."""
-_POSSIBLE_RATIO = (0.12, 10.0)
-_TRIED_SCALES = 3
 
 
 @dataclass(frozen=True)
@@ -101,18 +98,20 @@ def box_of(points: Array) -> tuple[Array, Array, float]:
     return low, high, float(np.linalg.norm(high - low))
 
 
-def plausible_scales(scan: Array, size: float) -> list[float]:
+def plausible_scales(scan: Array, size: float, settings: UnitSettings | None = None) -> list[float]:
     """Factors to try on the scan's coordinates, the likeliest first.
 
     Parameters
     ----------
     scan : (n, 3)
     size : diagonal of the part in mm
+    settings : ratios of sizes; None for the defaults
     """
+    settings = settings or UnitSettings()
     ratio = max(box_of(scan)[2], 1e-300) / size
-    possible = [f for f in (1.0, *FACTORS) if _POSSIBLE_RATIO[0] < ratio * f < _POSSIBLE_RATIO[1]]
-    trusted = _TRUSTED_RATIO[0] < ratio < _TRUSTED_RATIO[1]
-    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:_TRIED_SCALES]
+    possible = [f for f in (1.0, *FACTORS) if settings.possible[0] < ratio * f < settings.possible[1]]
+    trusted = settings.trusted[0] < ratio < settings.trusted[1]
+    return sorted(possible, key=lambda f: (not (trusted and f == 1.0), abs(np.log(ratio * f))))[:settings.tried]
 
 
 def unit_name(scale: float) -> str:

@@ -15,6 +15,8 @@ from ...arrays import Array, Index
 from ..surfaces import Jet, Lattices, SpanGrid, normals
 
 _WITHIN_CELL = 0.75
+_LOT = 65536
+"""Points that are looked at together: those of a large scan would take more memory than all else."""
 _NEGLIGIBLE_SHARE = 0.002
 """Share of the points up to which those on the wrong side are left out rather than matched again."""
 
@@ -100,15 +102,22 @@ def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None
         if outward is not None:
             nearest = _rematch_wrong_side(points, outward, frames, nearest, gate)
     point = np.flatnonzero(nearest < len(frames.position))
-    row = nearest[point]
-    offset = points[point] - frames.position[row]
+    lots = [point[start : start + _LOT] for start in range(0, max(len(point), 1), _LOT)]
+    height, good = (np.concatenate(part) for part in zip(*(_heights(points[lot], nearest[lot], frames, gate)
+                                                           for lot in lots), strict=True))
+    return Correspondence(point[good], frames.cell[nearest[point[good]]], height[good], nearest)
+
+
+def _heights(points: Array, row: Index, frames: Frames, gate: float) -> tuple[Array, NDArray[np.bool_]]:
+    """Heights of points (n, 3) over the frames with these rows (n,), and whether these may hold them: (n,) each."""
+    offset = points - frames.position[row]
     step = np.einsum("nax,nx->na", frames.step[row], offset)
     bend = frames.form[row]
     sag = 0.5 * (bend[:, 0] * step[:, 0] ** 2 + 2 * bend[:, 1] * step[:, 0] * step[:, 1] + bend[:, 2] * step[:, 1] ** 2)
     height = np.einsum("nx,nx->n", frames.normal[row], offset) - sag
     good = (frames.allowed[row] & (np.abs(height) < gate)
             & (np.abs(step) < _WITHIN_CELL * frames.size[row]).all(axis=1))
-    return Correspondence(point[good], frames.cell[row[good]], height[good], nearest)
+    return height, good
 
 
 def _rematch_wrong_side(points: Array, outward: Array, frames: Frames, nearest: Index, gate: float) -> Index:

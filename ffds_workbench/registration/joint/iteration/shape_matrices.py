@@ -73,10 +73,13 @@ def _thickness_rows(problem: Problem, control_points: Array, known: ThicknessRow
 
 def _strain_blocks(problem: Problem, control_points: Array) -> Array:
     """Normal matrix of the strain at the current shape, without its weights: (3, 3, size)."""
-    stiffness = problem.stiffness
+    stiffness, sheet = problem.stiffness, problem.sheet_of_span
     normal = normals(stiffness.places.displaced(problem.lattices, control_points, 3), stiffness.places.outward)[0]
-    rows = stiffness.strain_rows(problem.lattices, control_points, normal, problem.sheet_of_span)
-    flat = rows.reshape(len(rows), -1, 48)
-    weight = np.repeat(stiffness.weight, 3, axis=1)[:, :, None]
-    matrices = np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
+
+    def matrices(spans: slice) -> Array:
+        rows = stiffness.strain_rows(problem.lattices, control_points, normal, sheet, spans)
+        flat = rows.reshape(len(rows), -1, 48)
+        weight = np.repeat(stiffness.weight[spans], 3, axis=1)[:, :, None]
+        return np.matmul((weight * flat).swapaxes(1, 2), flat).reshape(-1, 3, 16, 3, 16)
+
     return problem.pattern.from_span_blocks(matrices)

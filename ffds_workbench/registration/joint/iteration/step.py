@@ -44,6 +44,7 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     state = replace(state, cache=_renewed_cache(problem, stage, state, jet))
     equations = prior_equations(problem, state, stage.bending)
     add_observations(equations, problem, state, jet)
+    del jet  # a factor needs the memory
     step, factor = _solve(problem, stage, state, equations)
     face_steps = _face_steps(problem, step)
     last_step = float(face_steps.max())

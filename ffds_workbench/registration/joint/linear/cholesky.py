@@ -147,7 +147,10 @@ class FrontCholesky:
                     beyond[number] = border
                 if last_child[parent] == number:
                     beyond.pop(parent, None)
-        return np.array([[flat[layout.places(a, b)] for b in range(3)] for a in range(3)])
+        result = np.empty((3, 3, len(layout.first)))
+        for a, b in product(range(3), repeat=2):
+            result[a, b] = flat[layout.places(a, b)]
+        return result
 
     def _inverse_beyond(self, flat: Array, number: int, beyond_parent: Array | None) -> Array:
         """The inverse among the border of a front, (b, b), on and above the diagonal, from that of its parent."""

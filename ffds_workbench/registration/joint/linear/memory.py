@@ -8,11 +8,11 @@ from pathlib import Path
 
 from ....errors import RefusedError
 
-_PER_CONTROL_POINT = 10e3
+_PER_CONTROL_POINT = 5e3
 """Bytes for each control point and each halving of their number, down to one: nested dissection of a surface fills so
 much (George 1973). This and the next two are calibrated to 30 %: the largest resident size of ``register`` on parts of
-600 to 8,000 control points, 12,000 to 125,000 cells and 60,000 to 630,000 points."""
-_PER_CELL = 3.3e3
+1,100 to 33,000 control points, 16,000 to 800,000 cells and 60,000 to 1.4 million points."""
+_PER_CELL = 1.5e3
 _PER_POINT = 140.0
 _MEMORY = Path("/proc/meminfo")
 _LIMITS = Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current")

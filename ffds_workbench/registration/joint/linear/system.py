@@ -17,6 +17,8 @@ from .dissection import dissect
 _CG_STEPS = 12
 """Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
 _CG_TOLERANCE = 3e-3
+_LOT = 512
+"""Spans whose matrices are made together: those of all would take much memory."""
 _PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)
 """Pairs of the control points of a span, (136,) each."""
 
@@ -88,12 +90,17 @@ class Pattern:
         """Sum up symmetric ``values`` of all spans or of the given ones: (spans, 16, 16) to (size,)."""
         return self._summed(values.reshape(-1, 256)[:, 16 * _PAIR_ROW + _PAIR_COLUMN], spans)
 
-    def from_span_blocks(self, matrices: Array) -> Array:
-        """Sum up symmetric ``matrices`` (spans, 3, 16, 3, 16) of all spans: (3, 3, size)."""
+    def from_span_blocks(self, matrices: Callable[[slice], Array]) -> Array:
+        """Sum up symmetric ``matrices`` (n, 3, 16, 3, 16) of all spans, made for one lot of spans after the other:
+        (3, 3, size)."""
+        values = np.empty((3, 3, *self._turned.shape))
+        for start in range(0, len(self._turned), _LOT):
+            lot = slice(start, start + _LOT)
+            own = matrices(lot)[:, :, _PAIR_ROW, :, _PAIR_COLUMN].transpose(2, 3, 1, 0)
+            values[:, :, lot] = np.where(self._turned[lot], own.swapaxes(0, 1), own)
         result = np.empty((3, 3, self.size))
         for a, b in product(range(3), repeat=2):
-            own, transposed = matrices[:, a, _PAIR_ROW, b, _PAIR_COLUMN], matrices[:, b, _PAIR_ROW, a, _PAIR_COLUMN]
-            result[a, b] = self._summed(np.where(self._turned, transposed, own))
+            result[a, b] = self._summed(values[a, b])
         return result
 
     def _summed(self, values: Array, spans: Index | slice = slice(None)) -> Array:

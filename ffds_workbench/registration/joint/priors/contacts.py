@@ -37,8 +37,12 @@ def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid) -> csr_ma
     reach = _CONTACT_GAP + _cell_sizes(lattices, cells)
     for number in range(len(part.solids)):
         span, place = np.nonzero(cells.inside & (owner[lattices.face_of_span] == number)[:, None])
-        other = np.flatnonzero(owner[face] != number)
-        tree, within = cKDTree(cells.nominal.position[span, place]), float(reach[span].max(initial=0.0))
+        if not len(span):
+            continue
+        own, within = cells.nominal.position[span, place], float(reach[span].max(initial=0.0))
+        near_box = (point >= own.min(axis=0) - within) & (point <= own.max(axis=0) + within)
+        other = np.flatnonzero((owner[face] != number) & near_box.all(axis=1))
+        tree = cKDTree(own)
         near = tree.query(point[other], distance_upper_bound=within)[1]
         other, near = other[near < len(span)], near[near < len(span)]
         span, place = span[near], place[near]

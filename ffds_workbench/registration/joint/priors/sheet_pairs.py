@@ -60,7 +60,8 @@ def find_pairs(faces: tuple[FaceGeometry, ...], solids: tuple[Index, ...], latti
     curvature : (spans, k, 3) of the nominal faces there, as in `Stiffness`
     """
     roundest = _most_convex(curvature, area, lattices.face_of_span, len(faces))
-    found = [_pairs_of(solid, lattices, cells, gauss, area) for solid in solids]
+    outward = tuple(normals(places.nominal, places.outward)[0] for places in (cells, gauss))
+    found = [_pairs_of(solid, lattices, cells, gauss, area, outward) for solid in solids]
     of_face = np.zeros(len(faces))
     thickness_of_solid, kept = [], []
     for solid, pairs in zip(solids, found, strict=True):
@@ -90,19 +91,19 @@ def _most_convex(curvature: Array, area: Array, face_of_span: Index, faces: int)
     return result
 
 
-def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array) -> Array:
-    """Rows face, opposite face, u, v, opposite u, v, distance, area of one solid."""
+def _pairs_of(solid: Index, lattices: Lattices, cells: SpanGrid, gauss: SpanGrid, area: Array,
+              outward: tuple[Array, ...]) -> Array:
+    """Rows face, opposite face, u, v, opposite u, v, distance, area of one solid; ``outward`` are the normals at the
+    cells and at the Gauss places."""
     spans = np.flatnonzero(np.isin(lattices.face_of_span, solid))
-    cell_normals = normals(cells.nominal, cells.outward)[0]
-    gauss_normals = normals(gauss.nominal, gauss.outward)[0]
     span, cell = (index.ravel() for index in np.nonzero(cells.inside[spans]))
     span = spans[span]
     own_span, own = np.nonzero(gauss.inside[spans])
     own_span = spans[own_span]
     if not len(span) or not len(own):
         return np.zeros((0, 8))
-    there, there_normal = cells.nominal.position[span, cell], cell_normals[span, cell]
-    here, normal = gauss.nominal.position[own_span, own], gauss_normals[own_span, own]
+    there, there_normal = cells.nominal.position[span, cell], outward[0][span, cell]
+    here, normal = gauss.nominal.position[own_span, own], outward[1][own_span, own]
     tree = cKDTree(np.hstack([there, _NORMAL_SCALE * there_normal]), balanced_tree=False, compact_nodes=False)
     near = tree.query(np.hstack([here, -_NORMAL_SCALE * normal]))[1]
     offset, cosine = there[near] - here, np.einsum("nx,nx->n", normal, there_normal[near])

@@ -126,13 +126,15 @@ class Stiffness:
         slope, hessian = (rows.reshape(spans, -1, 16).swapaxes(1, 2) for rows in (self.slope, self.hessian))
         return np.matmul(slope, pull.reshape(spans, -1, 3)) + np.matmul(hessian, moment.reshape(spans, -1, 3))
 
-    def strain_rows(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array) -> Array:
-        """Derivative of `strain` by x, y and z of the control points: (spans, k, 3, 3, 16)."""
-        tangent = self.tangent + np.matmul(self.slope, control_points[lattices.controls][:, None])
-        rows = (0.5 * thickness[:, None, None] * normal)[:, :, None, :, None] * self.hessian[:, :, :, None, :]
+    def strain_rows(self, lattices: Lattices, control_points: Array, normal: Array, thickness: Array,
+                    spans: slice = slice(None)) -> Array:
+        """Derivative of `strain` by x, y and z of the control points, on all ``spans`` or some: (n, k, 3, 3, 16)."""
+        slope, inward = self.slope[spans], 0.5 * thickness[spans, None, None] * normal[spans]
+        tangent = self.tangent[spans] + np.matmul(slope, control_points[lattices.controls[spans]][:, None])
+        rows = inward[:, :, None, :, None] * self.hessian[spans][:, :, :, None, :]
         for p, (i, j) in enumerate(_TENSOR_PAIRS):
-            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, i, :, None] * self.slope[:, :, j, None, :]
-            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, j, :, None] * self.slope[:, :, i, None, :]
+            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, i, :, None] * slope[:, :, j, None, :]
+            rows[:, :, p] += 0.5 * _TENSOR_NORM[p] * tangent[:, :, j, :, None] * slope[:, :, i, None, :]
         return rows
 
 

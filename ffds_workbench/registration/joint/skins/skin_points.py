@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ...normal_sides import orient_normals
+from ...scan_normals import plane_normals
 from ..data import ScanStatistics
 
 _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100
@@ -70,7 +71,7 @@ def skin_points(scan: Array, part: cKDTree, reach: float, statistics: ScanStatis
     points, around = points[usual], pool[index[usual]]
     middle = around.mean(axis=1)
     around = around - middle[:, None]
-    normals = np.linalg.eigh(np.matmul(around.swapaxes(1, 2), around))[1][:, :, 0]
+    normals = plane_normals(around)
     if not mixed:
         points = points - np.einsum("nx,nx->n", points - middle, normals)[:, None] * normals
     return SkinPoints(points, *orient_normals(points, normals))

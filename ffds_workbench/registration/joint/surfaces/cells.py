@@ -23,6 +23,8 @@ DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 _BOUNDARY_SPACING = 0.3
 _LARGEST_TRIM_DISTANCE = 3.0
 _FACE_SEPARATION = 1e6
+_LOT = 512
+"""Spans that are moved together: what they need on the way stays in the cache."""
 
 
 @dataclass(frozen=True)
@@ -78,11 +80,14 @@ class SpanGrid:
 
     def displaced(self, lattices: Lattices, control_points: Array, orders: int = 6) -> Jet:
         """Nominal + displacement of control points (controls, 3): the first ``orders`` of `DERIVATIVES`."""
-        gathered = control_points[lattices.controls]
         count, k = self.inside.shape
-        moved = np.matmul(self.tables[:orders].reshape(-1, 16), gathered).reshape(count, orders, k, 3)
-        moved *= self.scale[:, :orders, None, None]
-        return Jet(self.nominal.values[:, :, :orders] + moved.transpose(0, 2, 1, 3))
+        table, result = self.tables[:orders].reshape(-1, 16), np.empty((count, k, orders, 3))
+        for start in range(0, count, _LOT):
+            lot = slice(start, start + _LOT)
+            moved = np.matmul(table, control_points[lattices.controls[lot]]).reshape(-1, orders, k, 3)
+            moved *= self.scale[lot, :orders, None, None]
+            np.add(self.nominal.values[lot, :, :orders], moved.transpose(0, 2, 1, 3), out=result[lot])
+        return Jet(result)
 
 
 def normals(jet: Jet, outward: Array) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@
 """The smooth deformation that a scan of the right part may show beyond its rigid pose."""
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,19 +9,8 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ..model import Target
-from .displacement_field import (LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement,
-                                 no_displacement)
-
-Rounds = Sequence[tuple[float, int]]
-
-_ROUND_GATES = (0.1, 0.05, 0.025, 0.0125, 0.006, 0.003)
-NO_DEFORMATION_ROUNDS = ()
-STIFF_DEFORMATION_ROUNDS = tuple((gate, 2) for gate in _ROUND_GATES)
-SOFT_DEFORMATION_ROUNDS = (*STIFF_DEFORMATION_ROUNDS[:2], *((gate, LARGEST_DEGREE) for gate in _ROUND_GATES[2:]))
-"""Rounds of a fit, each a gate as a share of the part's size and a degree of the deformation: none at all, those that
-distinguish the part from another one, and those that follow a deformed part."""
-_LEAST_POINTS = 60
-"""Number of points from which a deformation is fitted."""
+from ..settings import Rounds
+from .displacement_field import DisplacementField, DisplacementObservations, fit_displacement, no_displacement
 
 
 @dataclass(frozen=True)
@@ -43,13 +31,14 @@ class Match:
     height: Array
     normal: Array
 
-    def heights(self, points: Array, gate: float) -> DisplacementObservations | None:
-        """The displacements that the heights ask for, with the points (n, 3) as scanned; None if too few are matched.
+    def heights(self, points: Array, gate: float, least: int) -> DisplacementObservations | None:
+        """The displacements that the heights ask for, with the points (n, 3) as scanned; None if less than
+        ``least`` points are matched.
 
         Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
         """
         some = np.flatnonzero(np.isfinite(self.distance))
-        if len(some) < _LEAST_POINTS:
+        if len(some) < least:
             return None
         left, normal = self.height[some], self.normal[some]
         wanted = left + np.einsum("ni,ni->n", normal, points[some] - self.points[some])
@@ -78,7 +67,7 @@ def match_deformed(target: Target, points: Array, normals: Array, reach: float, 
     found = match_undeformed(target, points if start is None else deformation.straightened(points, points), normals,
                              reach)
     for gate, degree in rounds:
-        heights = found.heights(points, gate * target.size)
+        heights = found.heights(points, gate * target.size, target.settings.deformation.least_points)
         if heights is None:
             break
         deformation = fit_displacement(deformation.of_degree(degree), heights)

@@ -15,19 +15,7 @@ from ...motions import apply, best_fit
 from ..model import Rims, Target, kept_with_target
 from ..refine import ScanEnds, find_scan_ends, points_near_rims
 from .deformation_match import match_undeformed
-from .displacement_field import LARGEST_DEGREE, DisplacementField, DisplacementObservations, fit_displacement
-
-_LOOKS = (2, ((2, 0.025, 0.04), (2, 0.006, 0.025))), (LARGEST_DEGREE, ((1, 0.025, 0.04), (1, 0.003, 0.01)))
-"""The scan is looked at twice, with this degree of the deformation and these rounds: stride of the points, lower bound
-of the cut-off for heights, and largest distance of the scan's ends, both as shares of the part's size."""
-_ON_FACE_SIGMAS, _COARSE_HEIGHT = 3.0, 0.01
-"""Height up to which a point near a rim lies on its face: in standard deviations of the remaining heights, and in the
-first round at least this share of the part's size."""
-_END_WEIGHT = 4.0
-"""Weight of the scan's ends relative to their own uncertainty; heights also carry what the polynomials cannot
-follow."""
-_CELL_COUNT = 600
-"""Number of pieces of the part's surface that the pose is fitted to."""
+from .displacement_field import DisplacementField, DisplacementObservations, fit_displacement
 
 
 def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: float, pool: Array, noise: float,
@@ -50,7 +38,7 @@ def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: 
     """
     middles, area = surface_cells(target)
     pose = np.eye(4)
-    for degree, rounds in _LOOKS:
+    for degree, rounds in target.settings.deformation.looks:
         scan = _Scan(apply(pose, points), normals @ pose[:3, :3].T, apply(pose, pool), noise)
         deformation = _fit_look(target, scan, reach, deformation.of_degree(degree), rounds)
         motion = best_fit(middles + deformation(middles), middles, area)
@@ -71,7 +59,7 @@ class _Scan:
 def _fit_look(target: Target, scan: _Scan, reach: float, deformation: DisplacementField,
               rounds: Sequence[tuple[int, float, float]]) -> DisplacementField:
     """The most likely deformation, given where the scan lies and where it ends, coarse to fine."""
-    size, rims = target.size, target.rims
+    size, rims, settings = target.size, target.rims, target.settings.deformation
     straight = deformation.straightened(scan.points, deformation.straightened(scan.points, scan.points))
     near = deformation.straightened(scan.pool, scan.pool)
     row, entry = points_near_rims(rims, near, rounds[0][2] * size, _hidden_stretches(rims, straight, scan.normals))
@@ -79,14 +67,14 @@ def _fit_look(target: Target, scan: _Scan, reach: float, deformation: Displaceme
     for turn, (every, gate, end_reach) in enumerate(rounds):
         straight = deformation.straightened(scan.points, straight)
         found = match_undeformed(target, straight[::every], scan.normals[::every], reach)
-        heights = found.heights(scan.points[::every], gate * size)
+        heights = found.heights(scan.points[::every], gate * size, settings.least_points)
         if heights is None:
             break
         spread = max(heights.spread, scan.noise)
         border = deformation.straightened(bent, border)
         ends = find_scan_ends(rims, border, entry, end_reach * size, scan.noise,
-                              max(_ON_FACE_SIGMAS * spread, 0.0 if turn else _COARSE_HEIGHT * size))
-        at_ends = _end_observations(ends, deformation, spread, end_reach * size)
+                              max(settings.on_face_sigmas * spread, 0.0 if turn else settings.first_on_face * size))
+        at_ends = _end_observations(ends, deformation, spread, end_reach * size, settings.end_weight)
         deformation = fit_displacement(deformation, heights, at_ends, scan.noise)
     return deformation
 
@@ -97,14 +85,14 @@ def _hidden_stretches(rims: Rims, points: Array, normals: Array) -> NDArray[np.b
     return np.einsum("ni,ni->n", normals[nearest], rims.faces) < 0.0
 
 
-def _end_observations(ends: ScanEnds, deformation: DisplacementField, spread: float,
-                      cutoff: float) -> DisplacementObservations | None:
-    """The displacements that the scan's ends ask for; None if there are none."""
+def _end_observations(ends: ScanEnds, deformation: DisplacementField, spread: float, cutoff: float,
+                      weight: float) -> DisplacementObservations | None:
+    """The displacements that the scan's ends ask for, with that ``weight`` against heights; None if there are none."""
     if not len(ends.gap):
         return None
     moved = np.einsum("ni,ni->n", deformation(ends.places), ends.outwards)
-    weight = _END_WEIGHT * spread**2 * ends.weight
-    return DisplacementObservations(ends.places, ends.outwards, moved + ends.gap, ends.gap, weight, cutoff)
+    weights = weight * spread**2 * ends.weight
+    return DisplacementObservations(ends.places, ends.outwards, moved + ends.gap, ends.gap, weights, cutoff)
 
 
 @kept_with_target
@@ -114,7 +102,7 @@ def surface_cells(target: Target) -> tuple[Array, Array]:
     A mean over them is exact for what is linear within a piece; one over points at random has the error of a random
     sample, which tilts a bent part by some tenths of a degree.
     """
-    samples, seeds = target.samples, target.even.points[:_CELL_COUNT]
+    samples, seeds = target.samples, target.even.points[:target.settings.deformation.cells]
     cell = cKDTree(seeds).query(samples.points)[1]
     area: Array = np.bincount(cell, samples.area, len(seeds)).astype(float)
     held = area > 0.0

@@ -16,33 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array
-from ...robust_weights import MAD_TO_SIGMA, quantile, tukey
+from ...robust_weights import MAD_TO_SIGMA, TUKEY_SIGMAS, quantile, tukey
 from ..model import SurfaceSamples, Target, kept_with_target
+from ..settings import LARGEST_DEGREE, DeformationSettings
 
-LARGEST_DEGREE = 4
-"""Largest degree of the polynomials."""
-_CORRELATION_LENGTH, _AMPLITUDE = 0.6, 0.01
-"""The prior's correlation length ℓ in halves of the part's size, and its standard deviation s as a share of the
-size."""
-_NEGLIGIBLE_MONOMIAL = 0.02
-"""A monomial that moves no point of the part by more than this share of s is left out, as powers across a sheet are."""
-_STRAIN_POINTS = 75
-"""About how many places on the surface the strain is evaluated at."""
 _SURFACE_STRAIN = (0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))
 _THICKNESS_STRAIN = (2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0))
 """Components (i, j) of the strain tensor within the surface and through it, in a frame of two tangents and the normal.
 The third number is the square root of how often the component occurs in the symmetric tensor."""
-_STRAIN_COST = 0.5
-"""Height in mm that costs as much as a strain of 1, where both are taken at equally many points."""
-_STRAIN_HEIGHTS, _LEAST_STRAIN_COST, _LARGEST_STRAIN_COST = 150.0, 0.1, 5.0
-"""Along a surface that visibly stretches, strain is made so cheap that all of it together costs as much as this many
-heights; the second and third numbers bound its cost."""
-_BOX_MARGIN = 0.1
-"""Farther from the part's box than this, in halves of its size, the displacement is constant."""
-_CUTOFF_SIGMAS = 4.0
-"""Cut-off of Tukey's weights in standard deviations."""
-_LEAST_SPREAD = 1e-6
-"""Lower bound of the points' spread, as a share of the part's size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +39,7 @@ class DisplacementBasis:
     degree, precision : (k,) of each monomial, and 1/variance of its coefficient in units of 1/s²
     frames : (3, 3, m) components of the tangents and the normal at some places of the surface
     slopes : (3, k, m) derivatives of the monomials there along each of the three, in 1/mm
+    settings : what is expected of a deformation
     """
 
     size: float
@@ -68,6 +50,7 @@ class DisplacementBasis:
     precision: Array
     frames: Array
     slopes: Array
+    settings: DeformationSettings
 
     def values(self, places: Array, count: int) -> NDArray[np.float32]:
         """The first monomials at places (n, 3): (count, n). Single precision is a micrometre for a part of some m."""
@@ -83,24 +66,25 @@ class DisplacementBasis:
 @kept_with_target
 def displacement_basis(target: Target) -> DisplacementBasis:
     """The displacements of a part."""
-    half = 0.5 * target.size
+    half, settings = 0.5 * target.size, target.settings.deformation
     x = (target.samples.points - target.centre) / half
     powers: list[tuple[int, ...]] = []
     deviations = []
     for power in (p for d in range(LARGEST_DEGREE + 1) for p in combinations_with_replacement(range(3), d)):
         exponents = np.array([power.count(axis) for axis in range(3)])
-        deviation = 1.0 / (sqrt(prod(factorial(int(e)) for e in exponents)) * _CORRELATION_LENGTH ** len(power))
-        moves = deviation * np.prod(np.abs(x).max(axis=0) ** exponents) > _NEGLIGIBLE_MONOMIAL
+        deviation = 1.0 / (sqrt(prod(factorial(int(e)) for e in exponents)) * settings.correlation ** len(power))
+        moves = deviation * np.prod(np.abs(x).max(axis=0) ** exponents) > settings.negligible
         if len(power) < 2 or (moves and power[:-1] in powers):
             powers.append(power)
             deviations.append(deviation)
-    some = target.even[np.arange(0, len(target.even.area), 1 + len(target.even.area) // _STRAIN_POINTS)]
+    some = target.even[np.arange(0, len(target.even.area), 1 + len(target.even.area) // settings.strain_points)]
     frames = np.ascontiguousarray(np.concatenate([some.tangents, some.normals[:, None]], axis=1).transpose(1, 2, 0))
     slopes = np.einsum("nka,ian->ikn", _gradients(powers, some, target.centre, half), frames)
-    box = np.stack([x.min(axis=0) - _BOX_MARGIN, x.max(axis=0) + _BOX_MARGIN]).astype(np.float32)
+    box = np.stack([x.min(axis=0) - settings.box_margin, x.max(axis=0) + settings.box_margin]).astype(np.float32)
     return DisplacementBasis(target.size, target.centre, box,
                              tuple((powers.index(power[:-1]), power[-1]) for power in powers[1:]),
-                             np.array([len(power) for power in powers]), np.array(deviations) ** -2.0, frames, slopes)
+                             np.array([len(power) for power in powers]), np.array(deviations) ** -2.0, frames, slopes,
+                             settings)
 
 
 def _gradients(powers: list[tuple[int, ...]], samples: SurfaceSamples, middle: Array, half: float) -> Array:
@@ -126,6 +110,11 @@ class DisplacementField:
         """Displacements of nominal places (n, 3), in mm."""
         values = self.space.values(places, len(self.coefficients))
         return (self.coefficients.T.astype(np.float32) @ values).T.astype(float)
+
+    @property
+    def is_none(self) -> bool:
+        """Whether no deformation was looked for."""
+        return len(self.coefficients) == 1
 
     def straightened(self, points: Array, near: Array) -> Array:
         """The nominal places (n, 3) that have moved to points (n, 3), one step nearer than places near them."""
@@ -190,7 +179,7 @@ class DisplacementObservations:
 
     def robust(self) -> Array:
         """Weights (n,) after those that are far off are left out."""
-        return self.weight * tukey(self.residual, max(_CUTOFF_SIGMAS * self.spread, self.cutoff))
+        return self.weight * tukey(self.residual, max(TUKEY_SIGMAS * self.spread, self.cutoff))
 
 
 def fit_displacement(start: DisplacementField, heights: DisplacementObservations,
@@ -205,19 +194,20 @@ def fit_displacement(start: DisplacementField, heights: DisplacementObservations
     noise : standard deviation of the points in mm, where the strain so far is to tell what the one along the surface
         costs: the less, the more of it there is
     """
-    space, count = start.space, len(start.coefficients)
+    space, count, settings = start.space, len(start.coefficients), start.space.settings
     coefficients = start.coefficients.ravel()
-    deviation = max(heights.spread, _LEAST_SPREAD * space.size) / (_AMPLITUDE * space.size)
+    deviation = max(heights.spread, settings.least_spread * space.size) / (settings.amplitude * space.size)
     matrix = np.diag(np.repeat(space.precision[:count] * deviation**2, 3))
     right = np.zeros(3 * count)
     number, places = len(heights.places), space.frames.shape[-1]
     for components in (_SURFACE_STRAIN, _THICKNESS_STRAIN):
         strain, rows = start.strains(components)
-        cost = _STRAIN_COST
+        cost = settings.strain_cost * space.size
         if noise is not None and components is _SURFACE_STRAIN:
             square = max(float(strain @ strain) / places, 1e-12)
-            cost = float(np.clip(max(heights.spread, noise) * sqrt(_STRAIN_HEIGHTS / number / square),
-                                 _LEAST_STRAIN_COST, _LARGEST_STRAIN_COST))
+            least, most = (bound * space.size for bound in settings.strain_bounds)
+            cost = max(heights.spread, noise) * sqrt(settings.strain_heights / number / square)
+            cost = min(max(cost, least), most)
         share = cost**2 * number / places
         matrix += share * (rows @ rows.T)
         right += share * (rows @ (coefficients @ rows - strain))

@@ -9,13 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array
+from ..search_settings import SearchSettings
 from .part_samples import Target, kept_with_target
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
-_SAME_SIDE_COSINE = 0.35
-_TABLE_VOXELS, _TABLE_MARGIN = 40, 0.2
-"""Number of voxels of the look-up table along its longest side, and its margin around the part as a share of the part's
-size."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +27,7 @@ class NearestField:
         for normals that are not known
     points, normals : (m, 3) samples
     centre, size : of the part, (3,) and a length in mm
+    settings : of the search
     """
 
     origin: Array
@@ -39,6 +37,7 @@ class NearestField:
     normals: Array
     centre: Array
     size: float
+    settings: SearchSettings
 
     def __call__(self, points: Array, normals: Array | None) -> NDArray[np.int32]:
         """Index of the nearest sample for points and normals (…, 3); outside the grid the border counts."""
@@ -57,12 +56,16 @@ class NearestField:
 def nearest_field(target: Target) -> NearestField:
     """The look-up table of the part that ``target`` is, and of its surroundings."""
     points, normals = target.even.points, target.even.normals
-    low, high = points.min(axis=0) - _TABLE_MARGIN * target.size, points.max(axis=0) + _TABLE_MARGIN * target.size
-    voxel = float((high - low).max()) / _TABLE_VOXELS
+    settings = target.settings.search
+    margin = settings.margin * target.size
+    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+    voxel = float((high - low).max()) / settings.voxels
     axes = [np.arange(a + 0.5 * voxel, b + voxel, voxel) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=3)
     tables = []
-    for facing in [*(np.flatnonzero(normals @ side > _SAME_SIDE_COSINE) for side in _SIDES), np.arange(len(points))]:
+    on_side = [np.flatnonzero(normals @ side > settings.same_side_cosine) for side in _SIDES]
+    for facing in [*on_side, np.arange(len(points))]:
         facing = facing if len(facing) else np.arange(len(points))
         tables.append(facing[cKDTree(points[facing]).query(grid.reshape(-1, 3))[1]].reshape(grid.shape[:3]))
-    return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size)
+    return NearestField(low, voxel, np.stack(tables).astype(np.int32), points, normals, target.centre, target.size,
+                        settings)

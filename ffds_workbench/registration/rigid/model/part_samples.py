@@ -17,13 +17,10 @@ from scipy.spatial import ConvexHull, cKDTree
 
 from ...arrays import Array
 from ...parallel import workers
+from ..settings import RigidSettings
 from .rims import Rims
 
 Result = TypeVar("Result")
-_TURN_LENGTH = 0.04
-"""A normal turned by 1 rad counts as this share of the part's size in the search for the nearest sample."""
-_FACING_COSINE = 0.3
-"""Cosine below which a sample does not face the way a point's normal does."""
 _FLAT_SHADOW = 1e-9
 """Width of a shadow, as a share of its length, that is none."""
 
@@ -65,6 +62,7 @@ class Target:
     views : (k, 3) directions from the part to a camera
     visible : (k, m) whether a camera there sees the even sample
     rims : where the faces visibly end
+    settings : how scans are aligned with it
     """
 
     samples: SurfaceSamples
@@ -73,6 +71,7 @@ class Target:
     views: Array
     visible: NDArray[np.bool_]
     rims: Rims
+    settings: RigidSettings
 
     @cached_property
     def kept(self) -> dict[Any, Any]:
@@ -95,7 +94,7 @@ class Target:
 
     @cached_property
     def _turn_length(self) -> float:
-        return _TURN_LENGTH * self.size
+        return self.settings.samples.turn_length * self.size
 
     def nearest(self, points: Array, normals: Array | None, reach: float) -> tuple[Array, NDArray[np.intp]]:
         """Nearest sample, or where normals are given, the nearest one that faces about the same way.
@@ -119,7 +118,7 @@ class Target:
                                         workers=workers(points))[1]
         index = np.where(index < len(self.samples.area), index, 0)
         distance = np.linalg.norm(points - self.samples.points[index], axis=1)
-        facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > _FACING_COSINE
+        facing = np.einsum("ni,ni->n", normals, self.samples.normals[index]) > self.settings.samples.facing_cosine
         return np.where(facing & (distance < reach), distance, np.inf), index
 
     @cached_property

@@ -13,16 +13,7 @@ from scipy.spatial import cKDTree
 from ...arrays import Array
 from ...face_geometry import FaceGeometry
 from ...trims import inside_polylines
-
-_POINTS_PER_FACE = 1500
-_GRID_VOXELS, _NEAR_RIM = 80, 0.08
-"""Number of voxels along the part in the grid that finds nearby rims, and the distance that is near, as a share of its
-length."""
-_SHEET_NEIGHBOURS, _OPPOSITE_COSINE = 64, 0.7
-"""Neighbours among which the point on the other side of a sheet is looked for, and the cosine from which directions
-agree."""
-_STRETCH_POINTS = 8
-"""Number of points in a stretch of rim; they are half the spacing of the part's samples apart."""
+from ..settings import RimSettings
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +28,7 @@ class Rims:
     face : (n,) index of the face
     stretch : (n,) number of the short stretch of edge, some samples long, that the point belongs to
     step : distance in mm between neighbours on an edge
+    settings : how ends of a scan are found along them
     """
 
     points: Array
@@ -45,6 +37,7 @@ class Rims:
     face: NDArray[np.intp]
     stretch: NDArray[np.intp]
     step: float
+    settings: RimSettings
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -87,9 +80,10 @@ class Rims:
     @cached_property
     def across(self) -> NDArray[np.intp]:
         """For each point the one on the other side of a sheet, itself where there is none; (n,)."""
-        near = self.tree.query(self.points, k=min(_SHEET_NEIGHBOURS, len(self.points)))[1].reshape(len(self.points), -1)
-        found = (self.normals[near] * self.normals[:, None]).sum(axis=2) < -_OPPOSITE_COSINE
-        found &= (self.outwards[near] * self.outwards[:, None]).sum(axis=2) > _OPPOSITE_COSINE
+        settings, count = self.settings, min(self.settings.sheet_neighbours, len(self.points))
+        near = self.tree.query(self.points, k=count)[1].reshape(len(self.points), -1)
+        found = (self.normals[near] * self.normals[:, None]).sum(axis=2) < -settings.opposite_cosine
+        found &= (self.outwards[near] * self.outwards[:, None]).sum(axis=2) > settings.opposite_cosine
         return np.where(found.any(axis=1), near[np.arange(len(near)), found.argmax(axis=1)], np.arange(len(near)))
 
     def clear(self, depth: float) -> NDArray[np.bool_]:
@@ -104,10 +98,11 @@ class Rims:
         is near."""
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         length = float((high - low).max())
-        voxel, low = length / _GRID_VOXELS, low - _NEAR_RIM * length
-        shape = np.ceil((high + _NEAR_RIM * length - low) / voxel).astype(int) + 1
+        voxel, near = length / self.settings.voxels, self.settings.near * length
+        low = low - near
+        shape = np.ceil((high + near - low) / voxel).astype(int) + 1
         middles = low + (np.moveaxis(np.indices(shape), 0, -1).reshape(-1, 3) + 0.5) * voxel
-        nearest = self.tree.query(middles, distance_upper_bound=_NEAR_RIM * length, workers=-1)[1].astype(np.int32)
+        nearest = self.tree.query(middles, distance_upper_bound=near, workers=-1)[1].astype(np.int32)
         return low, voxel, np.where(nearest < len(self.points), nearest, np.int32(-1)).reshape(shape)
 
     def nearest(self, points: Array, pose: Array) -> NDArray[np.int32]:
@@ -145,29 +140,31 @@ class Rims:
         return np.where(near, np.maximum(beyond, 0.0), 0.0), outwards
 
 
-def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacing: float) -> Rims:
+def rims_of(faces: Sequence[FaceGeometry], points: Array, normals: Array, spacing: float,
+            settings: RimSettings) -> Rims:
     """Find the rims.
 
     Parameters
     ----------
     points, normals : (m, 3) samples of all faces; where they go on smoothly across an edge, it is no rim
     spacing : distance in mm between the samples
+    settings : where a face goes on, and how its rims are sampled
     """
-    pieces = [_edge_points(face, k, 0.5 * spacing) for k, face in enumerate(faces)]
+    pieces = [_edge_points(face, k, 0.5 * spacing, settings) for k, face in enumerate(faces)]
     places, outwards, outer_normals, face, part = (np.concatenate(column) for column in zip(*pieces, strict=True))
     tree = cKDTree(points)
-    ahead = places + 1.2 * spacing * outwards
+    ahead = places + settings.ahead * spacing * outwards
     distance, index = tree.query(ahead, k=4, distance_upper_bound=1.5 * spacing)
     padded_points = np.concatenate([points, [[np.inf] * 3]])
     padded_normals = np.concatenate([normals, np.zeros((1, 3))])
     beyond = np.einsum("nki,ni->nk", padded_points[index] - places[:, None], outwards) > 0.3 * spacing
-    smooth = np.einsum("nki,ni->nk", padded_normals[index], outer_normals) > 0.8
+    smooth = np.einsum("nki,ni->nk", padded_normals[index], outer_normals) > settings.smooth_cosine
     on = (np.isfinite(distance) & beyond & smooth).any(axis=1)
     stretch = np.unique(np.stack([face, part])[:, ~on], axis=1, return_inverse=True)[1]
-    return Rims(places[~on], outwards[~on], outer_normals[~on], face[~on], stretch, 0.5 * spacing)
+    return Rims(places[~on], outwards[~on], outer_normals[~on], face[~on], stretch, 0.5 * spacing, settings)
 
 
-def _edge_points(face: FaceGeometry, index: int, step: float,
+def _edge_points(face: FaceGeometry, index: int, step: float, settings: RimSettings,
                  ) -> tuple[Array, Array, Array, NDArray[np.intp], NDArray[np.intp]]:
     """Points along the trims, the directions across them and out of the face, the face's outward normals, its index,
     and the number of the stretch within the face."""
@@ -176,14 +173,14 @@ def _edge_points(face: FaceGeometry, index: int, step: float,
     for polyline in face.trims:
         length = np.linalg.norm(np.diff(surface(polyline), axis=0), axis=1)
         travelled = np.concatenate([[0.0], np.cumsum(length)])
-        count = int(np.clip(travelled[-1] / step, 4, _POINTS_PER_FACE))
+        count = int(np.clip(travelled[-1] / step, 4, settings.points_per_loop))
         at = (np.arange(count) + 0.5) / count * travelled[-1]
         segment = np.clip(np.searchsorted(travelled, at, side="right") - 1, 0, len(length) - 1)
         share = (at - travelled[segment]) / np.maximum(length[segment], 1e-300)
         run = np.diff(polyline, axis=0)[segment]
         starts.append(polyline[segment] + share[:, None] * run)
         along.append(run)
-        parts.append(before + np.arange(count) // _STRETCH_POINTS)
+        parts.append(before + np.arange(count) // settings.stretch_points)
         before = int(parts[-1][-1]) + 1
     uv, direction, part = np.concatenate(starts), np.concatenate(along), np.concatenate(parts)
     su, sv = surface.derivative(1, 0)(uv), surface.derivative(0, 1)(uv)

@@ -13,54 +13,50 @@ from ...arrays import Array
 from ...face_geometry import FaceGeometry
 from ...motions import even_directions
 from ...trims import inside_polylines
+from ..settings import RigidSettings
 from .part_samples import SurfaceSamples, Target
 from .rims import rims_of
 
-_SAMPLE_COUNT = 24_000
-_EVEN_COUNT = 2_500
-_VIEW_COUNT = 64
-_AREA_GRID = 40
-_LARGEST_TURN = 0.35
-"""Largest angle (rad) that a face may turn between two samples before it is sampled more densely."""
-_GRAZING_COSINE = 0.15
-"""Cosine under which a surface is too oblique for a camera to see it."""
-_FACE_ON_COSINE = 0.6
-"""Cosine from which a view proves that a sample can be seen: the depth buffer is too coarse for obliquer ones."""
+_OUTSIDE = 2e-3
+"""Sample spacings that tell the two sides of touching faces apart (theory: far less than one)."""
 
 
-def target_of(faces: Sequence[FaceGeometry], count: int = _SAMPLE_COUNT) -> Target:
+def target_of(faces: Sequence[FaceGeometry], settings: RigidSettings | None = None) -> Target:
     """Sample the faces of a part.
 
     Parameters
     ----------
     faces : the faces that the scan may show; faces that nothing outside can see (contacts inside an assembly) drop out
-    count : how many samples to aim at
+    settings : how scans are to be aligned with it; None for the defaults
 
     Raises
     ------
     ValueError
         There is no face with an area.
     """
-    areas = [_AreaGrid.of(face) for face in faces]
+    settings = settings or RigidSettings()
+    given = settings.samples
+    areas = [_AreaGrid.of(face, given.area_cells) for face in faces]
     total = sum(area.inside for area in areas)
     if not total > 0:
         raise ValueError("the faces have no area")
-    spacing = np.sqrt(total / count)
-    pieces = [_sample_face(face, k, area, spacing) for k, (face, area) in enumerate(zip(faces, areas, strict=True))]
+    spacing = np.sqrt(total / given.samples)
+    pieces = [_sample_face(face, k, area, spacing / given.largest_turn, spacing)
+              for k, (face, area) in enumerate(zip(faces, areas, strict=True))]
     all_samples = SurfaceSamples(*(np.concatenate([getattr(piece, name) for piece in pieces])
                                    for name in ("points", "normals", "tangents", "curvature", "area", "face")))
-    views = even_directions(_VIEW_COUNT)
+    views = even_directions(given.views)
     generator = np.random.default_rng(0)
     share = all_samples.area / all_samples.area.sum()
-    rough = generator.choice(len(share), size=min(len(share), 3 * _EVEN_COUNT), replace=False, p=share)
-    seen = _visibility(all_samples[rough], all_samples.points, views, np.sqrt(total / len(rough)))
-    exposed_rough = (seen & (views @ all_samples.normals[rough].T > _FACE_ON_COSINE)).any(axis=0)
-    exposed = exposed_rough[cKDTree(all_samples.points[rough] + 1e-3 * all_samples.normals[rough]).query(
-        all_samples.points + 1e-3 * all_samples.normals)[1]]
-    kept = np.flatnonzero(exposed_rough & exposed[rough])[:_EVEN_COUNT]
+    rough = generator.choice(len(share), size=min(len(share), 3 * given.even_samples), replace=False, p=share)
+    seen = _visibility(all_samples[rough], all_samples.points, views, np.sqrt(total / len(rough)), given.grazing_cosine)
+    exposed_rough = (seen & (views @ all_samples.normals[rough].T > given.face_on_cosine)).any(axis=0)
+    outside = all_samples.points + _OUTSIDE * spacing * all_samples.normals
+    exposed = exposed_rough[cKDTree(outside[rough]).query(outside)[1]]
+    kept = np.flatnonzero(exposed_rough & exposed[rough])[:given.even_samples]
     samples_seen = all_samples[exposed]
-    rims = rims_of(faces, samples_seen.points, samples_seen.normals, spacing)
-    return Target(samples_seen, all_samples, all_samples[rough[kept]], views, seen[:, kept], rims)
+    rims = rims_of(faces, samples_seen.points, samples_seen.normals, spacing, settings.rims)
+    return Target(samples_seen, all_samples, all_samples[rough[kept]], views, seen[:, kept], rims, settings)
 
 
 @dataclass(frozen=True)
@@ -72,13 +68,13 @@ class _AreaGrid:
     inside: float
 
     @classmethod
-    def of(cls, face: FaceGeometry) -> _AreaGrid:
+    def of(cls, face: FaceGeometry, cells: int) -> _AreaGrid:
         polyline = np.concatenate(face.trims)
         u0, u1, v0, v1 = face.surface.range
         (ul, vl), (uh, vh) = polyline.min(axis=0), polyline.max(axis=0)
         box = (max(u0, ul), min(u1, uh), max(v0, vl), min(v1, vh))
-        u = box[0] + (np.arange(_AREA_GRID) + 0.5) / _AREA_GRID * (box[1] - box[0])
-        v = box[2] + (np.arange(_AREA_GRID) + 0.5) / _AREA_GRID * (box[3] - box[2])
+        u = box[0] + (np.arange(cells) + 0.5) / cells * (box[1] - box[0])
+        v = box[2] + (np.arange(cells) + 0.5) / cells * (box[3] - box[2])
         cross = np.cross(face.surface.derivative(1, 0).on_grid(u, v), face.surface.derivative(0, 1).on_grid(u, v))
         density = np.linalg.norm(cross, axis=2)
         uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=2).reshape(-1, 2)
@@ -93,23 +89,23 @@ class _AreaGrid:
 
     def place(self, unit: Array) -> Array:
         """Points of the unit square (n, 2) to parameters (n, 2) even by area: inverse distribution function."""
-        u0, u1, v0, v1 = self.box
+        (u0, u1, v0, v1), cells = self.box, len(self.density)
         marginal = np.concatenate([[0.0], np.cumsum(self.density.sum(axis=1))])
-        u = np.interp(unit[:, 0] * marginal[-1], marginal, np.linspace(0, 1, _AREA_GRID + 1))
-        row = np.minimum((u * _AREA_GRID).astype(int), _AREA_GRID - 1)
-        conditional = np.concatenate([np.zeros((_AREA_GRID, 1)), np.cumsum(self.density, axis=1)], axis=1)
+        u = np.interp(unit[:, 0] * marginal[-1], marginal, np.linspace(0, 1, cells + 1))
+        row = np.minimum((u * cells).astype(int), cells - 1)
+        conditional = np.concatenate([np.zeros((cells, 1)), np.cumsum(self.density, axis=1)], axis=1)
         conditional /= np.maximum(conditional[:, -1:], 1e-300)
         position = np.empty(len(unit))
         for k in np.unique(row):
             mine = row == k
-            position[mine] = np.interp(unit[mine, 1], conditional[k], np.linspace(0, 1, _AREA_GRID + 1))
+            position[mine] = np.interp(unit[mine, 1], conditional[k], np.linspace(0, 1, cells + 1))
         return np.stack([u0 + u * (u1 - u0), v0 + position * (v1 - v0)], axis=1)
 
 
-def _sample_face(face: FaceGeometry, index: int, area: _AreaGrid, spacing: float) -> SurfaceSamples:
-    """Even samples, denser where the face turns by more than `_LARGEST_TURN` between two of them."""
+def _sample_face(face: FaceGeometry, index: int, area: _AreaGrid, roundest: float, spacing: float) -> SurfaceSamples:
+    """Even samples, denser where the face turns too far between two of them: with radii below ``roundest`` mm."""
     probe = _evaluate(face, area.place(_r2_sequence(32)), index)
-    bent = float(np.quantile(np.linalg.norm(probe.curvature, axis=1), 0.75)) * spacing / _LARGEST_TURN
+    bent = float(np.quantile(np.linalg.norm(probe.curvature, axis=1), 0.75)) * roundest
     count = int(np.ceil(area.whole / spacing**2 * np.clip(bent**2, 1.0, 9.0)))
     uv = area.place(_r2_sequence(max(count, 12)))
     uv = uv[inside_polylines(face.trims, uv)]
@@ -147,13 +143,15 @@ def _evaluate(face: FaceGeometry, uv: Array, index: int) -> SurfaceSamples:
                           np.zeros(len(uv)), np.full(len(uv), index))
 
 
-def _visibility(samples: SurfaceSamples, hiding: Array, views: Array, spacing: float) -> NDArray[np.bool_]:
+def _visibility(samples: SurfaceSamples, hiding: Array, views: Array, spacing: float,
+                grazing: float) -> NDArray[np.bool_]:
     """Which samples an orthographic camera in each direction sees, by a depth buffer; (len(views), n).
 
     Parameters
     ----------
     hiding : (m, 3) points that hide what is behind them, some per pixel so that no pixel is a hole
     spacing : of the samples in mm; a pixel is twice that
+    grazing : cosine under which a surface is too oblique to be seen
     """
     visible = np.zeros((len(views), len(samples.points)), dtype=bool)
     pixel = 2.0 * spacing
@@ -170,7 +168,7 @@ def _visibility(samples: SurfaceSamples, hiding: Array, views: Array, spacing: f
         key = mine[:, 0] * width + mine[:, 1]
         height = samples.points @ view
         facing = samples.normals @ view
-        steepness = np.sqrt(1.0 - np.clip(facing, _GRAZING_COSINE, 1.0) ** 2) / np.maximum(facing, _GRAZING_COSINE)
+        steepness = np.sqrt(1.0 - np.clip(facing, grazing, 1.0) ** 2) / np.maximum(facing, grazing)
         slack = pixel * (0.2 + np.sqrt(2.0) * steepness)
-        visible[k] = (facing > _GRAZING_COSINE) & (height > top[key] - slack)
+        visible[k] = (facing > grazing) & (height > top[key] - slack)
     return visible

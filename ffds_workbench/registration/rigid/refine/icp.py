@@ -12,14 +12,6 @@ from ...motions import apply, twist_motion, twist_rows
 from ...robust_weights import quantile, tukey
 from ..model import Target
 
-_SCALE_QUANTILE, _CUTOFF_FACTOR = 0.85, 4.0
-"""The cut-off of the weights is the second number times this quantile of the residuals. So noise and deformation count
-nearly in full, as they should in the best fit of a deformed part, and outliers do not."""
-_SETTLED_STEP = 3e-5
-"""A stage ends with a step smaller than this share of the part's size."""
-_MATCHES_LAST = 0.25
-"""Points are matched anew once the pose has moved by this share of the sample spacing: heights are of second order."""
-
 
 def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], iterations: int = 12,
            normals: Array | None = None) -> Array:
@@ -42,11 +34,12 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
     -------
     (4, 4), T_model_scan
     """
+    settings = target.settings.refine
     for gate in gates:
         travelled = np.inf
         for _ in range(iterations):
             moved = apply(pose, points)
-            if travelled > _MATCHES_LAST * target.spacing:
+            if travelled > settings.matches_last * target.spacing:
                 turned = None if normals is None else normals @ pose[:3, :3].T
                 distance, nearest = target.nearest(moved, turned, gate)
                 near = np.flatnonzero(np.isfinite(distance))
@@ -58,7 +51,7 @@ def refine(target: Target, points: Array, pose: Array, gates: Sequence[float], i
             pose = twist_motion(update, target.centre) @ pose
             moves = float(np.abs(update[3:]).max() + np.abs(update[:3]).max() * target.size / 2)
             travelled += moves
-            if moves < _SETTLED_STEP * target.size:
+            if moves < settings.settled * target.size:
                 break
     return pose
 
@@ -73,7 +66,8 @@ def fit_step(target: Target, points: Array, nearest: NDArray[np.intp], gate: flo
     gate : in mm, the largest cut-off of the weights
     """
     height, normal = target.heights(points, nearest)
-    cutoff = min(max(_CUTOFF_FACTOR * quantile(np.abs(height), _SCALE_QUANTILE), 1e-3 * gate), gate)
+    settings = target.settings.refine
+    cutoff = min(max(settings.cutoff * quantile(np.abs(height), settings.scale_quantile), 1e-3 * gate), gate)
     beyond, outwards = target.overshoot(points, nearest, gate)
     out = np.flatnonzero(beyond > 0)
     weight = np.concatenate([tukey(height, cutoff), tukey(beyond[out], gate)])

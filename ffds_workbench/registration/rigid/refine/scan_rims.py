@@ -10,27 +10,10 @@ from numpy.typing import NDArray
 from ...arrays import Array
 from ...motions import apply
 from ..model import Rims
+from ..settings import RimSettings
 
-_DENSITY_BAND = (1.0, 5.0)
-"""How far inside the outermost point of a stretch of rim the scan's density is counted, in steps of the rims."""
-_LEAST_BAND_POINTS = 5
-"""Number of points in that band from which a stretch of rim is used."""
-_LARGEST_RANK, _WITHIN_NOISE = 4, 0.4
-"""The end of randomly placed points lies 1/density beyond the outermost one, or k/density beyond the k-th one. Noise
-carries points over the rim: where more than one lies within this part of the noise, the second to the fourth outermost
-point is used."""
-_WALL_STEPS, _WALL_SHARE = 2.0, 0.05
-"""A wall at the rim would be seen within this many steps of the end and below the face. A stretch is left out if there
-are more points of a wall than one stray point plus this share of the face's points per mm: then the wall itself holds
-the scan."""
-_STRETCH_NEIGHBOURS, _LEAST_TELLING, _ODD_SIGMAS = 2, 3, 2.0
-"""Stretches on either side that one is compared with; how many of all these have to be usable; and how far, in its
-standard deviations, it may lie from their median. A stray point or a hole shows in a single stretch."""
-_LEAST_UNCERTAINTY = 0.05
-"""Uncertainty in mm of a rim, even in a dense scan: mixed pixels, rounded edges."""
-_USUAL_LOSS = 0.3
-"""Sensors lose points at edges and never see any beyond them: an end farther inside the rim than this, in mm, gets less
-weight."""
+_EITHER_SIDE = 2
+"""Stretches on either side that one is compared with: a stray point or a hole shows in a single one."""
 
 
 @dataclass(frozen=True)
@@ -76,14 +59,14 @@ def points_near_rims(rims: Rims, points: Array, reach: float, hidden: NDArray[np
     nearest = rims.nearest(points, np.eye(4))
     row = np.flatnonzero(nearest >= 0)
     apart = points.take(row, axis=0) - rims.points.take(nearest[row], axis=0)
-    row = row[np.linalg.norm(apart, axis=1) < reach + _DENSITY_BAND[1] * rims.step]
+    row = row[np.linalg.norm(apart, axis=1) < reach + rims.settings.band[1] * rims.step]
     first = nearest[row]
     if hidden is not None:
         first = np.where(hidden[rims.stretch[first]], rims.across[first], first)
     partner = rims.partner[first]
     other = partner != first
     row, entry = np.concatenate([row, row[other]]), np.concatenate([first, partner[other]])
-    clear = rims.clear(_DENSITY_BAND[1] * rims.step)[entry]
+    clear = rims.clear(rims.settings.band[1] * rims.step)[entry]
     return row[clear], entry[clear]
 
 
@@ -99,11 +82,12 @@ def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: fl
     noise : standard deviation of the points in mm
     tolerance : in mm, height up to which a point is on a face
     """
-    count, step, width = len(rims.middles), rims.step, _DENSITY_BAND[1] - _DENSITY_BAND[0]
+    settings, count, step = rims.settings, len(rims.middles), rims.step
+    begin, end = settings.band
     offset, stretch = points - rims.points.take(entry, axis=0), rims.stretch[entry]
     beyond = np.einsum("ni,ni->n", offset, rims.outwards.take(entry, axis=0))
     height = np.abs(np.einsum("ni,ni->n", offset, rims.normals.take(entry, axis=0)))
-    far = reach + _DENSITY_BAND[1] * step
+    far = reach + end * step
     on = np.flatnonzero((height < tolerance) & (np.abs(beyond) < far))
     on = on[np.argsort(2.0 * far * stretch[on] - beyond[on])]  # by stretch, and of each from the outermost one on
     first = np.searchsorted(stretch[on], np.arange(count + 1))
@@ -111,28 +95,29 @@ def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: fl
     outermost = np.full(count, -np.inf)
     outermost[number > 0] = beyond[on[first[number > 0]]]
     inside = (outermost[stretch[on]] - beyond[on]) / step
-    band = np.bincount(stretch[on][(inside > _DENSITY_BAND[0]) & (inside < _DENSITY_BAND[1])], minlength=count)
-    density = band / (width * step)
-    wall = (height >= tolerance) & (height < tolerance + 2.0 * _WALL_STEPS * step)
-    wall &= np.abs(beyond - outermost[stretch]) < _WALL_STEPS * step
+    band = np.bincount(stretch[on][(inside > begin) & (inside < end)], minlength=count)
+    density = band / ((end - begin) * step)
+    wall = (height >= tolerance) & (height < tolerance + 2.0 * settings.wall_steps * step)
+    wall &= np.abs(beyond - outermost[stretch]) < settings.wall_steps * step
     strange = np.bincount(stretch[wall], minlength=count)
-    told = np.flatnonzero((band >= _LEAST_BAND_POINTS) & (number > _LARGEST_RANK)
-                          & (strange < 1.0 + _WALL_SHARE * density))
+    told = np.flatnonzero((band >= settings.least_band_points) & (number > settings.largest_rank)
+                          & (strange < 1.0 + settings.wall_noise * noise * density))
     density = density[told]
-    rank = np.clip(np.ceil(_WITHIN_NOISE * noise * density), 1, _LARGEST_RANK).astype(int)
+    rank = np.clip(np.ceil(settings.within_noise * noise * density), 1, settings.largest_rank).astype(int)
     gap = beyond[on[first[told] + rank - 1]] + rank / density
-    spread = np.sqrt(_LEAST_UNCERTAINTY**2 + rank / density**2)
-    seen = (np.abs(gap) < reach) & _agrees_with_neighbours(told, gap, spread, count)
+    spread = np.sqrt((settings.uncertainty * noise) ** 2 + rank / density**2)
+    seen = (np.abs(gap) < reach) & _agrees_with_neighbours(told, gap, spread, count, settings)
     told, gap, spread = told[seen], gap[seen], spread[seen]
-    weight = 1.0 / (spread * np.hypot(1.0, np.minimum(gap, 0.0) / _USUAL_LOSS)) ** 2
+    weight = 1.0 / (spread * np.hypot(1.0, np.minimum(gap, 0.0) / (settings.usual_loss * noise))) ** 2
     return ScanEnds(told, rims.middles[told], rims.outward_directions[told], gap, weight)
 
 
-def _agrees_with_neighbours(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int) -> NDArray[np.bool_]:
+def _agrees_with_neighbours(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int,
+                            settings: RimSettings) -> NDArray[np.bool_]:
     """Whether a stretch has about the same gap as its neighbours along the rim, and enough of these have one."""
-    gaps = np.full(count + 2 * _STRETCH_NEIGHBOURS, np.nan)
-    gaps[stretch + _STRETCH_NEIGHBOURS] = gap
-    around = np.sort(np.lib.stride_tricks.sliding_window_view(gaps, 2 * _STRETCH_NEIGHBOURS + 1)[stretch], axis=1)
+    gaps = np.full(count + 2 * _EITHER_SIDE, np.nan)
+    gaps[stretch + _EITHER_SIDE] = gap
+    around = np.sort(np.lib.stride_tricks.sliding_window_view(gaps, 2 * _EITHER_SIDE + 1)[stretch], axis=1)
     number = np.isfinite(around).sum(axis=1)
     middle = 0.5 * (around[np.arange(len(stretch)), (number - 1) // 2] + around[np.arange(len(stretch)), number // 2])
-    return (number >= _LEAST_TELLING) & (np.abs(gap - middle) < _ODD_SIGMAS * spread)
+    return (number >= settings.telling) & (np.abs(gap - middle) < settings.odd_sigmas * spread)

@@ -2,8 +2,7 @@
 """Global search for a pose: `starts`, `candidates` (many poses improved at once) and `proposals` (the best of them, in
 stages).
 """
-from .proposals import LOCAL_SEARCH, QUICK_SEARCH, THOROUGH_SEARCH, SearchStage, propose
-from .starts import starts_around, starts_of, turns_up_to
+from .proposals import propose
+from .starts import starts_of
 
-__all__ = ["LOCAL_SEARCH", "QUICK_SEARCH", "THOROUGH_SEARCH", "SearchStage", "propose", "starts_around",
-           "starts_of", "turns_up_to"]
+__all__ = ["propose", "starts_of"]

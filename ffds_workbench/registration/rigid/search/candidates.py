@@ -60,24 +60,25 @@ class Probe:
 def improve(field: NearestField, probe: Probe, candidates: Candidates, gates: Sequence[float]) -> Candidates:
     """One Gauss-Newton step per gate for all candidates; ``gates`` are the distances in mm at which the weight
     (Geman-McClure) has fallen to a quarter."""
+    settings = field.settings
     poses, scale = candidates.poses, np.array([2.0 / field.size] * 3 + [1.0] * 3)
     for gate in gates:
         moved, offset, normal, agreement = _match_nearest(field, probe, candidates.signs, poses)
         distance = np.einsum("kmi,kmi->km", offset, offset)
-        weight = (gate**2 / (gate**2 + distance)) ** 2 * (0.02 + agreement**2)
+        weight = (gate**2 / (gate**2 + distance)) ** 2 * (settings.side_floor + agreement**2)
         height = np.einsum("kmi,kmi->km", normal, offset)
         jacobian = twist_rows(moved - field.centre, normal) * scale
         weighted = jacobian * weight[:, :, None]
         matrix = np.swapaxes(weighted, 1, 2) @ jacobian
         right = -np.einsum("kmi,km->ki", weighted, height)
         # a weak pull towards the sample itself: where planes leave a direction free the outline still guides the pose
-        pull = 0.1 * weight
+        pull = settings.pull * weight
         matrix[:, 3:, 3:] += np.eye(3) * pull.sum(axis=1)[:, None, None]
         right[:, 3:] -= np.einsum("km,kmi->ki", pull, offset)
-        matrix += np.eye(6) * (1e-3 * weight.sum(axis=1) + 1e-12)[:, None, None]
+        matrix += np.eye(6) * (settings.damping * weight.sum(axis=1) + 1e-12)[:, None, None]
         update = np.linalg.solve(matrix, right[:, :, None])[:, :, 0] * scale
         turn = np.linalg.norm(update[:, :3], axis=1, keepdims=True)
-        update[:, :3] *= np.minimum(1.0, 0.5 / np.maximum(turn, 1e-12))
+        update[:, :3] *= np.minimum(1.0, settings.longest_turn / np.maximum(turn, 1e-12))
         poses = twist_motion(update, field.centre) @ poses
     return Candidates(poses, candidates.signs)
 
@@ -91,12 +92,12 @@ def scores(field: NearestField, probe: Probe, candidates: Candidates, width: flo
 
 def _match_nearest(field: NearestField, probe: Probe, signs: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
     """Moved points, their offsets from the nearest samples, those samples' normals, and how well they agree."""
-    moved = apply(poses, probe.points)
+    moved, blind = apply(poses, probe.points), field.settings.blind_agreement
     turned = signs[:, probe.piece, None] * (probe.normals @ np.swapaxes(poses[:, :3, :3], -1, -2))
     nearest = field(moved, turned if probe.sided else None)
     surface_normal = field.normals[nearest]
     cosine = np.einsum("kmi,kmi->km", turned, surface_normal)
-    agreement = np.maximum(cosine, 0.0) if probe.sided else 0.6 + 0.4 * np.abs(cosine)
+    agreement = np.maximum(cosine, 0.0) if probe.sided else blind + (1.0 - blind) * np.abs(cosine)
     return moved, moved - field.points[nearest], surface_normal, agreement
 
 

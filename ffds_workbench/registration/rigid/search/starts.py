@@ -2,43 +2,44 @@
 """Where the search for a pose starts."""
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...arrays import Array
 from ...motions import apply, even_rotations, motion
-from ...scan_sketch import Sketch
+from ..evidence import LooseScan
 from ..model import Target
-
-_AROUND_ROTATIONS, _AROUND_TURN, _AROUND_SHIFT = 16, 0.35, 0.08
-"""Number of turns, their largest in rad, and the shift as a share of the part's size, of the second search around the
-best pose."""
-_GLOBAL_ROTATIONS = 500
-_LOCAL_ROTATIONS, _LOCAL_TURN = 60, 0.7
-"""Number of turns from the present pose that mode "fine" starts from, and the largest in rad."""
+from ..search_settings import SearchSettings
 
 
-def starts_of(target: Target, sketch: Sketch, mode: str) -> Array:
-    """Poses of the ``sketch`` on the ``target`` to start from, (k, 4, 4): ``mode`` "fine" near the present one,
-    "global" anywhere."""
-    if mode == "fine":
-        rotations = turns_up_to(_LOCAL_TURN, _LOCAL_ROTATIONS)
-        # the last one leaves the part where the scan is now
-        goals = np.concatenate([_centres(sketch.points, target.size), target.centre[None]])
-        return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in goals])
-    centres = _centres(sketch.points, target.size)
-    rotations = even_rotations(_GLOBAL_ROTATIONS)
-    return np.concatenate([motion(rotations, target.centre - rotations @ centre) for centre in centres])
+def starts_of(scan: LooseScan, kind: str, pose: Array | None = None) -> Array:
+    """Poses to start from, (k, 4, 4).
+
+    Parameters
+    ----------
+    scan : even points of it, and the part
+    kind : "close" and "nearby", turned little from the present pose; "anywhere"; "around" a ``pose``, turned and
+        shifted a little
+    pose : (4, 4) that may have settled beside the right one; by default the present one
+    """
+    target, points, settings = scan.target, scan.sketch.points, scan.target.settings.search
+    if kind == "around":
+        return _starts_around(target, points, np.eye(4) if pose is None else pose)
+    turns = {"close": partial(turns_up_to, settings.close_turn, settings.close_turns),
+             "nearby": partial(turns_up_to, settings.nearby_turn, settings.nearby_turns),
+             "anywhere": partial(even_rotations, settings.anywhere_turns)}[kind]()
+    goals = points.mean(axis=0)[None] if kind == "close" else _centres(points, target.size, settings)
+    if kind == "nearby":  # the last goal leaves the part where the scan is now
+        goals = np.concatenate([goals, target.centre[None]])
+    return np.concatenate([motion(turns, target.centre - turns @ centre) for centre in goals])
 
 
-def starts_around(target: Target, sketch: Sketch, pose: Array) -> Array:
-    """Poses a little turned and shifted from a ``pose`` (4, 4) of the ``sketch`` on the ``target`` that may have
-    settled beside the right one: (k, 4, 4)."""
-    place = apply(pose, sketch.points).mean(axis=0)
-    rotations = turns_up_to(_AROUND_TURN, _AROUND_ROTATIONS)
-    shifts = _AROUND_SHIFT * target.size * np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
+def _starts_around(target: Target, points: Array, pose: Array) -> Array:
+    settings, place = target.settings.search, apply(pose, points).mean(axis=0)
+    rotations = turns_up_to(settings.around_turn, settings.around_turns)
+    shifts = settings.around_shift * target.size * np.concatenate([np.zeros((1, 3)), np.eye(3), -np.eye(3)])
     return np.concatenate([motion(rotations, place + shift - rotations @ place) for shift in shifts]) @ pose
 
 
@@ -51,16 +52,16 @@ def turns_up_to(largest: float, count: int) -> Array:
     return Rotation.from_rotvec(np.concatenate([np.zeros((1, 3)), near])).as_matrix()
 
 
-def _centres(points: Array, size: float, most: int = 5) -> Array:
+def _centres(points: Array, size: float, settings: SearchSettings) -> Array:
     """Where the part may be in the scan: the centroid, or places spread over a scan larger than the part."""
     middle = points.mean(axis=0)
-    if np.linalg.norm(np.ptp(points, axis=0)) < 1.4 * size:
+    if np.linalg.norm(np.ptp(points, axis=0)) < settings.one_centre * size:
         return middle[None]
     centres = [middle]
     distance = np.linalg.norm(points - middle, axis=1)
-    while len(centres) < most and distance.max() > 0.3 * size:
+    while len(centres) < settings.centres and distance.max() > settings.other_centre * size:
         far = points[np.argmax(distance)]
-        around = points[np.linalg.norm(points - far, axis=1) < 0.5 * size].mean(axis=0)
+        around = points[np.linalg.norm(points - far, axis=1) < settings.centre_reach * size].mean(axis=0)
         centres.append(around)
         distance = np.minimum(distance, np.minimum(np.linalg.norm(points - around, axis=1),
                                                    np.linalg.norm(points - far, axis=1)))
