@@ -89,7 +89,8 @@ def certify_file(nominal: Part.Shape, before: Condition, back: ReadBack) -> File
 
     Raises
     ------
-    RefusedError : a shell is open, or a face gives no triangles, however fine, that is closed or does in the nominal shape
+    RefusedError : a shell is open, or a face gives no triangles, however fine, that is closed or does in the nominal
+        shape
     """
     own = mesh(back.shape)
     lacks = bool(own.empty or own.open_edges)
