@@ -11,7 +11,7 @@ from ..brep.model_files.read_back import ReadBack
 from ..brep.validity import listed
 from ..errors import RefusedError
 from .certificate import Certificate, Condition, condition
-from .meshing import Mesh, mesh, meshes_finer
+from .meshing import Mesh, mesh
 
 
 @dataclass(frozen=True)
@@ -33,18 +33,19 @@ class FileCertificate:
     @property
     def lost(self) -> list[str]:
         """One sentence for everything that the nominal shape has and the file does not; empty where nothing is lost."""
+        nominal, own = self.meshes
         sentences = []
         if self.before.closed and not self.after.closed:
             sentences.append("The shape is no longer closed.")
-        return sentences + [f"Face{face + 1} gives no triangles." for face in self._without_triangles(finer=False)]
+        if nominal is not None:
+            sentences += [f"Face{face + 1} gives no triangles." for face in own.empty if face not in nominal.empty]
+        return sentences
 
     @property
     def notes(self) -> list[str]:
         """One sentence for everything that is looser than the nominal shape, but closed and valid."""
         nominal, own = self.meshes
-        sentences = [f"Face{face + 1} gives no triangles as coarse as FreeCAD shows them, but finer ones."
-                     for face in self._without_triangles(finer=True)]
-        sentences += Certificate(self.before, self.after).looser()
+        sentences = Certificate(self.before, self.after).looser()
         if self.before.invalid:
             still = listed(self.after.invalid) if self.after.invalid else "nothing"
             sentences.append(f"The nominal model is not valid in {listed(self.before.invalid)} (Part: Check geometry "
@@ -52,12 +53,6 @@ class FileCertificate:
         if nominal is not None and own.open_edges and not nominal.open_edges:
             sentences.append(f"The mesh of the file has {own.open_edges} open edges.")
         return sentences
-
-    def _without_triangles(self, *, finer: bool) -> list[int]:
-        """Faces that give no triangles, but did in the nominal shape: those that do when meshed ``finer``, or not."""
-        nominal, own = self.meshes
-        return [] if nominal is None else [face for face in own.empty if face not in nominal.empty
-                                           and meshes_finer(self.back.shape.Faces[face], self.back.shape) == finer]
 
     def line(self) -> str:
         """What was read back, in a line."""
@@ -89,8 +84,7 @@ def certify_file(nominal: Part.Shape, before: Condition, back: ReadBack) -> File
 
     Raises
     ------
-    RefusedError : a shell is open, or a face gives no triangles, however fine, that is closed or does in the nominal
-        shape
+    RefusedError : a shell is open, or a face gives no triangles, that is closed or does in the nominal shape
     """
     own = mesh(back.shape)
     lacks = bool(own.empty or own.open_edges)

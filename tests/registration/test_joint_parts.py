@@ -13,7 +13,7 @@ from ffds_workbench.registration.joint import JointSettings
 from ffds_workbench.registration.joint.data.borders import find_borders, find_near_edges
 from ffds_workbench.registration.joint.data.scan_statistics import scan_statistics
 from ffds_workbench.registration.joint.linear.cholesky import FrontCholesky, FrontLayout
-from ffds_workbench.registration.joint.linear.dissection import dissect
+from ffds_workbench.registration.joint.linear.elimination_order import dissect
 from ffds_workbench.registration.joint.linear.system import Pattern
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
