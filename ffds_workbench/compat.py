@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import importlib
 import zipfile
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
@@ -32,6 +33,20 @@ def freecad_version() -> str:
     import FreeCAD
 
     return ".".join(FreeCAD.Version()[:3])
+
+
+def stored_edges(wire: Any, face: Any) -> list[Any]:
+    """The edges of a face's wire, in the order and with the orientation in which it holds them; a seam stands there
+    twice, which FreeCAD 1.1 lists once."""
+    edges = wire.childShapes(False, True)
+    return edges + [edge.reversed() for edge in edges if edge.isSeam(face)] if _lists_seams_once() else edges
+
+
+@lru_cache(maxsize=None)
+def _lists_seams_once() -> bool:
+    import Part
+
+    return len(Part.makeCylinder(1.0, 1.0).Faces[0].Wires[0].childShapes(False, True)) == 3
 
 
 def execute(loop_or_dialog: Any) -> int:

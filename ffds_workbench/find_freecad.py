@@ -6,10 +6,12 @@ names it where it is in an unusual place.
 """
 from __future__ import annotations
 
+import atexit
 import importlib.util
 import os
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 from . import ROOT
@@ -40,6 +42,7 @@ def activate() -> None:
         return
     if importlib.util.find_spec("FreeCAD") is None:
         _put_on_path()
+    _find_home()
     importlib.import_module("FreeCAD")  # Part crashes the interpreter where it is imported before FreeCAD
     # FreeCAD puts its modules first: a copy of FFDS among them would be taken by the processes that are started here.
     sys.path[:] = [str(ROOT), *(path for path in sys.path if path != str(ROOT))]
@@ -50,6 +53,15 @@ def interpreter() -> str:
     if "python" in Path(sys.executable or "").name:
         return sys.executable
     return str(Path(sys.exec_prefix) / "bin" / "python3")
+
+
+def _find_home() -> None:
+    """A home for the moment where the user's cannot be written: FreeCAD 1.1 ends the process there."""
+    if os.access(os.environ.get("FREECAD_USER_HOME") or os.path.expanduser("~"), os.W_OK):
+        return
+    folder = tempfile.mkdtemp(prefix="ffds-home-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    os.environ.update({"FREECAD_USER_HOME": folder, "XDG_CACHE_HOME": folder})  # processes that are started share it
 
 
 def _put_on_path() -> None:

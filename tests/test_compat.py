@@ -59,3 +59,12 @@ def test_step_files_have_the_edges_in_their_faces_parameters(tmp_path):
     finally:
         group.RemInt("WriteSurfaceCurveMode")
         compat.write_step(plate.shape, tmp_path / "last.step")
+
+
+def test_a_seam_stands_twice_in_its_wire():
+    """Once each way: FreeCAD 1.1 lists it once, and the way it does changes as the shape goes through a file."""
+    face = Part.makeCylinder(3, 5).Faces[0]
+    wire, = face.Wires
+    seam = [edge for edge in compat.stored_edges(wire, face) if edge.isSeam(face)]
+    assert len(compat.stored_edges(wire, face)) == 4 and len(seam) == 2 and seam[0].isSame(seam[1])
+    assert {edge.Orientation for edge in seam} == {"Forward", "Reversed"}

@@ -5,12 +5,16 @@ from __future__ import annotations
 import ast
 import re
 import shlex
+import shutil
+import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from ffds_workbench.cli.main import command_line
+from ffds_workbench.cli.main import command_line, main
 from ffds_workbench.errors import InputError
+from ffds_workbench.scan.sensor.files import write_ply
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "resources" / "docs").rglob("*.md"))]
@@ -56,3 +60,47 @@ def test_blocks_can_be_run(page):
                     command_line().parse_args(words[1:])
                 except InputError as error:
                     raise AssertionError(f"{line}: {error}") from None
+
+
+def test_the_pages_build_without_a_warning(tmp_path):
+    for name in ("sphinx", "myst_parser"):
+        pytest.importorskip(name, reason="Sphinx or MyST is not installed: the documentation is not built")
+    done = subprocess.run(["sh", str(ROOT / "resources" / "scripts" / "docs.sh"), str(tmp_path)], text=True,
+                          capture_output=True)
+    assert done.returncode == 0, done.stderr
+    assert "--remove-clutter" in (tmp_path / "commands.html").read_text("utf-8")
+
+
+def test_refusals_in_the_faq_are_refusals():
+    """What the first column quotes stands in the sources, but for what is filled in."""
+    texts = [node.value for path in (ROOT / "ffds_workbench").rglob("*.py")
+             for node in ast.walk(ast.parse(path.read_text("utf-8")))
+             if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    rows = re.findall(r"^\| ([^|]+) \|", (ROOT / "resources" / "docs" / "faq.md").read_text("utf-8"), re.MULTILINE)
+    for row in rows[1:]:
+        for piece in re.split(r"…|Face7|\bN\b|the scan seems to be in metres", row):
+            assert any(piece.strip(" :") in text for text in texts), row
+
+
+@pytest.fixture
+def workplace(plate, tmp_path, monkeypatch):
+    """A folder in which the tutorials' files lie: the plate stands in for the bracket, so that all goes quickly."""
+    random = np.random.default_rng(0)
+    shutil.copy(plate[0], tmp_path / "bracket.step")
+    write_ply(tmp_path / "bracket_scan.ply", np.loadtxt(plate[1]))
+    write_ply(tmp_path / "flat_datum.ply", np.column_stack([random.uniform(0, 40, (9000, 2)),
+                                                            random.normal(0, 0.05, 9000)]))
+    (tmp_path / "taught.src").write_text("DEF taught()\nLIN {X 10, Y 0, Z 5, A 0, B 0, C 180}\n"
+                                         "LIN {X 50, Y 0, Z 5, A 0, B 0, C 180}\nEND\n")
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["robot", "reverse", "inspection"])
+def test_tutorials_run(name, workplace):
+    if name == "reverse":
+        pytest.importorskip("open3d", reason="this tutorial prepares a scan, which is open3d's")
+    for language, code in BLOCK.findall((ROOT / "resources" / "docs" / "tutorials" / f"{name}.md").read_text("utf-8")):
+        if language == "python":
+            exec(compile(code, name, "exec"), {})
+        for line in code.splitlines() if language == "sh" else ():
+            assert main(shlex.split(line)[1:]) == 0, line

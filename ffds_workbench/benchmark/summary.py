@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""``./ffds benchmark summary``: the README's performance section, from what the other benchmarks measured.
+"""``./ffds benchmark summary``: the documentation's page on performance, from what the other benchmarks measured.
 
 It measures nothing. It reads ``accuracy.json``, ``paper.json``, ``peers.json`` and ``scaling.json`` of the same output
-folder, says which of them are missing, and writes ``performance.md``. Between the marks in the README the section is
+folder, says which of them are missing, and writes ``performance.md``. Between the marks in the page the section is
 replaced.
 """
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from .. import ROOT
+from .. import RESOURCES
 from ..errors import InputError
 from . import peers
 from .accuracy_study.accuracy_cases import NOISE
@@ -31,8 +31,8 @@ _SHEETS = {"A": "clean", "D": "dirty"}
 _METHODS = {"ffds": "ffds", "robust": "robust", "kdtree": "building a k-d tree", "read": "reading the array"}
 
 
-def run(folder: Path, progress: Progress, readme: Path = ROOT / "README.md") -> str:
-    """Write ``performance.md`` and, where the README has the marks, the section between them; returns the section.
+def run(folder: Path, progress: Progress, page: Path = RESOURCES / "docs" / "performance.md") -> str:
+    """Write ``performance.md`` and, where the page has the marks, the section between them; returns the section.
 
     Raises
     ------
@@ -46,11 +46,11 @@ def run(folder: Path, progress: Progress, readme: Path = ROOT / "README.md") -> 
                          f"--out {folder} first.")
     text = section(data)
     (folder / "performance.md").write_text(text + "\n")
-    if readme.exists():
-        whole = readme.read_text("utf-8")
+    if page.exists():
+        whole = page.read_text("utf-8")
         if START in whole and END in whole:
             head, rest = whole.split(START, 1)
-            readme.write_text(head + START + "\n" + text + "\n" + END + rest.split(END, 1)[1], "utf-8")
+            page.write_text(head + START + "\n" + text + "\n" + END + rest.split(END, 1)[1], "utf-8")
     return text
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import Part
 
+from ..compat import stored_edges
 from ..registration.arrays import Array
 
 Incidence = tuple[tuple[int, ...], ...]
@@ -124,7 +125,7 @@ def read(shape: Part.Shape) -> Topology:
     face_number, edge_number, vertex_number = _Numbering(faces), _Numbering(edges), _Numbering(vertices)
     counts = {"compounds": len(shape.Compounds), "solids": len(shape.Solids), "shells": len(shape.Shells),
               "faces": len(faces), "wires": len(shape.Wires), "edges": len(edges), "vertices": len(vertices)}
-    wires = [[(wire.Orientation == "Forward", wire.childShapes(False, True)) for wire in face.Wires] for face in faces]
+    wires = [[(wire.Orientation == "Forward", stored_edges(wire, face)) for wire in face.Wires] for face in faces]
     return Topology(
         counts=counts,
         solid_faces=tuple(face_number.all(solid.Faces) for solid in shape.Solids),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The README's performance section is generated, not written."""
+"""The page on performance is generated, not written."""
 from __future__ import annotations
 
 import json
@@ -17,11 +17,11 @@ def test_section_replaces_what_stands_between_the_marks(tmp_path):
     data = {"points": [last],
             "ns_per_further_point": dict.fromkeys(("ffds", "robust", "kdtree", "read"), further)}
     (tmp_path / "scaling.json").write_text(json.dumps(data))
-    readme = tmp_path / "README.md"
-    readme.write_text(f"before\n{summary.START}\nold\n{summary.END}\nafter\n")
-    text = summary.run(tmp_path, lambda stage: None, readme)
+    page = tmp_path / "page.md"
+    page.write_text(f"before\n{summary.START}\nold\n{summary.END}\nafter\n")
+    text = summary.run(tmp_path, lambda stage: None, page)
     assert "./ffds benchmark scaling" in text and "Not measured for this summary: accuracy, paper, peers" in text
-    whole = readme.read_text()
+    whole = page.read_text()
     assert "old" not in whole and "| ffds | 300 | 60.0 | 1.20 | 300 |" in whole
     assert whole.startswith("before\n") and whole.endswith("\nafter\n")
 
