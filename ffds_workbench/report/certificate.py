@@ -18,7 +18,7 @@ from ..brep.topology import Topology
 from ..brep.validity import invalid_parts, listed
 from ..errors import RefusedError
 from ..registration.arrays import Array
-from .boolean_check import BodyErrors, boolean_checks, total
+from .boolean_check import BodyErrors, total
 
 GAP_LIMIT = 1e-4
 """Largest edge gap beyond the nominal's own in mm."""
@@ -158,21 +158,6 @@ def enforce(before: Structure, after: Structure) -> None:
     lost = broken(before, after)
     if lost:
         raise RefusedError("The deformed model lost its topology and was not written: " + " ".join(lost))
-
-
-def certify(nominal: Part.Shape, result: Part.Shape, boolean_limit: float | None = 60.0) -> Certificate:
-    """Compare a deformed shape with the nominal one it came from.
-
-    Parameters
-    ----------
-    nominal, result : before and after
-    boolean_limit : seconds of processor time that the check for Boolean operations may take, for both shapes at the
-        same time; None leaves it out
-    """
-    if boolean_limit is None:
-        return Certificate(condition(nominal), condition(result))
-    before, after = boolean_checks((nominal, result), boolean_limit)
-    return Certificate(condition(nominal, before), condition(result, after))
 
 
 def structure(shape: Part.Shape) -> Structure:

@@ -18,7 +18,8 @@ from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.brep.topology import edge_traces
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.registration.splines import SplineSurface, clamped_knots, greville
-from ffds_workbench.report.certificate import certify
+from ffds_workbench.report.boolean_check import boolean_checks
+from ffds_workbench.report.certificate import Certificate, condition
 
 FIDELITY = 4e-5
 """mm; the field may be this far from a registered displacement along an edge (field._CLOSE), on either side of it."""
@@ -182,7 +183,8 @@ def test_rebuilt_with_a_clean_certificate(shape):
     edited = len(part.faces) // 2
     displacement = lattice(part, edited, lambda points: 0.3 * bulge(points))
     result = rebuild(part, local_displacements(part, {edited: displacement}), 2e-5)
-    assert certify(part.shape, result, 30).problems() == []
+    before, after = boolean_checks((part.shape, result), 30)
+    assert Certificate(condition(part.shape, before), condition(result, after)).problems() == []
 
 
 def test_radial_field_reaches_its_tolerance_with_few_centres():

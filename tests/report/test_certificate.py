@@ -9,9 +9,16 @@ import Part
 import pytest
 
 from ffds_workbench.errors import RefusedError
-from ffds_workbench.report.certificate import Certificate, certify, condition, enforce, structure
+from ffds_workbench.report.boolean_check import boolean_checks
+from ffds_workbench.report.certificate import Certificate, condition, enforce, structure
 
 SHIFT = 0.0125
+
+
+def certify(nominal, result, boolean_limit=60.0):
+    """The certificate of a shape as it is, with the check for Boolean operations where that has a limit in seconds."""
+    checks = [(None,)] * 2 if boolean_limit is None else boolean_checks((nominal, result), boolean_limit)
+    return Certificate(*map(condition, (nominal, result), checks))
 
 
 def box_with_shifted_edge() -> Part.Shape:

@@ -12,6 +12,7 @@ from ffds_workbench.brep.model_files import model_file
 from ffds_workbench.brep.model_files.model_file import Model
 from ffds_workbench.brep.model_files.read_back import compare
 from ffds_workbench.errors import RefusedError
+from ffds_workbench.report import meshing
 from ffds_workbench.report.certificate import condition
 from ffds_workbench.report.file_certificate import certify_file
 from ffds_workbench.report.meshing import Mesh, mesh
@@ -55,6 +56,14 @@ def test_looser_than_the_nominal_is_noted():
 def test_meshes():
     assert mesh(Part.makeCylinder(3, 10)) == Mesh((), 0)
     assert mesh(Part.makePlane(4, 2)).open_edges == 4
+
+
+def test_a_face_that_the_mesher_gives_up_on_now_and_then(shared_data, monkeypatch):
+    """At 0.03 mm OCCT 7.6 gives this face no triangles, at 0.015 and 0.06 mm it does."""
+    face = Part.read(str(shared_data / "world" / "occ_abc_0_13.step")).Faces[65].copy()
+    box = face.BoundBox
+    monkeypatch.setattr(meshing, "_DEVIATION", 0.03 / (box.XLength + box.YLength + box.ZLength))
+    assert mesh(face).empty == ()
 
 
 def test_what_lies_elsewhere_or_is_missing_is_seen():

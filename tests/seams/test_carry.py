@@ -14,7 +14,7 @@ import pytest
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.seams.output.writing import write_seams
 from ffds_workbench.seams.plan import plan_seams
-from ffds_workbench.seams.programs.conventions import from_kuka_angles
+from ffds_workbench.seams.programs.angles import from_kuka_angles
 from ffds_workbench.seams.taught.carry import carry
 
 POSITION, DIRECTION = 1e-4, 0.02

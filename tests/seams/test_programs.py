@@ -18,7 +18,7 @@ import pytest
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.seams.output.writing import write_seams
 from ffds_workbench.seams.plan import plan_seams
-from ffds_workbench.seams.programs.conventions import (abb_quaternions, from_kuka_angles, kuka_angles,
+from ffds_workbench.seams.programs.angles import (abb_quaternions, from_kuka_angles, kuka_angles,
                                                        ur_rotation_vectors)
 from ffds_workbench.seams.programs.moves import RobotSettings, moves, read_frame_choice
 

@@ -26,11 +26,11 @@ from ...report.stopwatch import Progress, Stopwatch
 from ...scan.cloud import PointCloud
 from ..translating import tr
 from .face_on_scan import Deviations, Displacement, FaceOnScan, RebuiltDisplacement, own_deviations
+from .thinning import FITTED_POINTS, every_nth
 from .whole import WholePreview
 
-COARSE = 3000
-"""Scan points per face that are looked at while a control is being moved."""
-_COARSE_SAMPLE, _COARSE_STAGES = 4000, (0, 2, 4, -1)
+_COARSE_STAGES = (0, 2, 4, -1)
+"""Stages of the robust fit that a coarse answer needs: the first, two between and the last."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class Preview:
                                   "another face.").format(name=face.geometry.name))
         known = self._sizes.get((request.method, index)) if request.lattice == "auto" else None
         request = request if known is None else replace(request, lattice=known)
-        every = max(1, -(-len(near) // COARSE))
+        every = every_nth(len(near))
         found = register_face(face.geometry, self._scan.points[near[::every]], request,
                               _coarse(robust_settings(request)), face.raster)
         self._remember(request, {index: found.displacement})
@@ -185,7 +185,7 @@ def _neighbour(face: FaceOnScan, displacement: Displacement) -> Patch:
 
 
 def _coarse(settings: RobustSettings) -> RobustSettings:
-    return replace(settings, sample=_COARSE_SAMPLE, schedule=tuple(settings.schedule[k] for k in _COARSE_STAGES))
+    return replace(settings, sample=FITTED_POINTS, schedule=tuple(settings.schedule[k] for k in _COARSE_STAGES))
 
 
 def _size(displacement: SplineSurface) -> tuple[int, int]:

@@ -14,9 +14,7 @@ from ...registration.request import RegistrationRequest
 from ...registration.splines import SplineSurface
 from ...scan.cloud import PointCloud
 from .face_on_scan import Deviations, FaceOnScan, own_deviations
-
-_LOOKED_AT = 8000
-"""Scan points whose deviations are shown while a control is being moved."""
+from .thinning import thinned
 
 Found = list[tuple[FaceOnScan, Deviations, SplineSurface, float]]
 """Face by face: its scan points, its displacement and its coverage."""
@@ -28,7 +26,7 @@ class WholePreview:
     def __init__(self, part: Workpiece, scan: PointCloud) -> None:
         refuse_other_part(part, scan)
         self._part, self._scan = part, scan
-        some = scan.points[np.random.default_rng(0).permutation(len(scan.points))[:_LOOKED_AT]]
+        some = thinned(scan.points)
         self._few = [FaceOnScan(part.geometry(index), some) for index in range(len(part.faces))]
         self._coverage: list[float] = []
         self._live: tuple[tuple[str, ...], LiveJoint] | None = None

@@ -18,9 +18,11 @@ _MODEL_SHARE = 1 / 3
 """Share of the model's error in the variance of a patch's mean from which the spans of a face are divided
 (calibrated: families of seeds from 1001 on)."""
 _LEAST_PATCHES = 8
+"""Patches that a face must have to be judged (theory: the variance of fewer is not known to a half, √(2/8))."""
 _FULL_PATCH = 0.3
-"""Of the usual weight, what a patch has to have to be judged."""
+"""Of the usual weight, what a patch has to have to be judged (unit)."""
 _LARGEST_LATTICE = 6000
+"""Control points from which on no face is refined (unit: time)."""
 _SENSOR_NOISE_SHARE = 0.5
 """Share of the faces: where more of them ask, the sensor's noise is smooth rather than the shape rough, unless points
 share more of an error than they have noise of their own (unit)."""

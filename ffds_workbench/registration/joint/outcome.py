@@ -24,7 +24,9 @@ _TORN_STEP, _TORN_AREA = 0.5, 0.05
 others hold them (units)."""
 _LEAST_USED_POINTS = 50
 _LEAST_USED_SHARE = 0.02
+"""Points near the part, and near its free faces, and their share of the scan, that hold it (unit)."""
 _COLLAPSED_AREA = 0.1
+"""Share of its nominal area below which a cell has collapsed (unit)."""
 _OFF_IN_NOISES, _OFF_SHARE, _NEGLIGIBLE = 10.0, 0.2, 1e-5
 """A face does not follow the scan that lies this many times the noise off its points, this share of what the nominal
 part did, and farther than as many times this share of the part's size, which is less than anybody can see."""

@@ -19,21 +19,24 @@ from .surfaces import normals
 
 _EXPECTED = PriorTrust(isometry=25.0, thickness=20.0, shear=5.0, dihedral=3.0, sliding=60.0)
 """Number of independent shapes that a scan determines against each prior. Some are half or less of what traces of the
-covariance say: deformations are smooth, so that a few large shapes cost as much as many small ones would."""
+covariance say: deformations are smooth, so that a few large shapes cost as much as many small ones would
+(calibrated: ``./ffds benchmark accuracy``, on its families)."""
 _WON_BACK = ("isometry", "shear", "dihedral")
 _EXPECTED_CONTROLS = 1000.0
-"""The expected numbers grow in proportion with the control points above this number."""
+"""The expected numbers grow in proportion with the control points above this number (calibrated: as above)."""
 _LEAST_TRUST = PriorTrust(isometry=1e-5, thickness=1e-2, shear=1e-5, dihedral=1e-5, sliding=0.1)
-"""A sheet bends, stretches and even shears far more easily than it changes its thickness."""
+"""A sheet bends, stretches and even shears far more easily than it changes its thickness (unit)."""
 _LEAST_TRUST_MASSIVE = 0.1
-"""Least trust in the thickness of massive parts, of which only the opposite side says where an unseen one lies."""
+"""Least trust in the thickness of massive parts, of which only the opposite side says where an unseen one lies
+(unit)."""
 _ISOMETRY_OFF = 1e-6
+"""Trust in the isometry that the user has taken away (unit: as good as none)."""
 _ISOMETRIC_TRUST = 0.1
-"""A part counts as isometric while its isometry is trusted by more than this."""
+"""A part counts as isometric while its isometry is trusted by more than this (unit)."""
 _MOST_WON_BACK = 3.0
 """Factor that the trust in isometry does not gain within a stage. *unit*: isometric parts gain half as much."""
 _OBSERVED_SHARE = 0.3
-"""Share of a span's cells that make it observed."""
+"""Share of a span's cells that make it observed (unit)."""
 
 
 def update_prior_trust(problem: Problem, state: State, stage: Stage) -> State:

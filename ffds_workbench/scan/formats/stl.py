@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""STL, ascii and binary: the corners of the triangles, each of them once, with the mean normals of their triangles."""
+"""STL, ascii and binary: the corners of the triangles, each of them once, with the mean normals of their triangles.
+
+Read here and not with open3d because open3d rounds the numbers of an ascii file to single precision and takes a damaged
+file for an empty one.
+"""
 from __future__ import annotations
 
 import io

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ...errors import InputError
 from ...registration.arrays import Array
-from .conventions import from_kuka_angles, kuka_angles
+from .angles import from_kuka_angles, kuka_angles
 from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24

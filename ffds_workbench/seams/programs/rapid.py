@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
-from .conventions import abb_quaternions, from_kuka_angles
+from .angles import abb_quaternions, from_kuka_angles
 from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
-from .conventions import from_kuka_angles, ur_rotation_vectors
+from .angles import from_kuka_angles, ur_rotation_vectors
 from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 32

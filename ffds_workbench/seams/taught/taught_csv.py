@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from ...errors import InputError
 from ...registration.arrays import Array
 from ...scan.cloud import FARTHEST
-from ..programs.conventions import from_kuka_angles, kuka_angles
+from ..programs.angles import from_kuka_angles, kuka_angles
 from .attach import Motion
 
 _WITHOUT_HEADER = {3: "x y z", 6: "x y z a b c", 7: "x y z qx qy qz qw"}

@@ -15,7 +15,7 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from ...scan.cloud import FARTHEST
-from ..programs.conventions import from_kuka_angles, kuka_angles
+from ..programs.angles import from_kuka_angles, kuka_angles
 from ..programs.moves import numbers
 from .attach import Motion
 

@@ -21,23 +21,23 @@ from ..surfaces import Jet, normals
 from .kriging import FieldModel, Observations, Pose, condition, most_likely_model, overconfidence
 
 _PATCHES_PER_SIDE = 4
-"""Patches per direction of a span whose heights are averaged: small against what the field changes over."""
+"""Patches per direction of a span whose heights are averaged: small against what the field changes over (unit)."""
 _LARGEST_SYSTEM = 1500
-"""Number of random patches: a dense matrix of this size is factorised."""
+"""Number of random patches: a dense matrix of this size is factorised (unit: time)."""
 _LEAST_PATCH_WEIGHT = 0.1
-"""Patches with less than this of the usual weight are left out."""
+"""Patches with less than this of the usual weight are left out (unit)."""
 _BORDER_STRIDE = 3
-"""Only one border row in this many is used: neighbours are close and share their errors."""
+"""Only one border row in this many is used: neighbours are close and share their errors (unit)."""
 _POSE_PLACES = 200
 """Number of places whose mean pose stays as the solve has it: a turn that nothing observes must not follow residual
-errors."""
+errors (unit)."""
 _STEPS_TO_SETTLE = 2
-"""Number of steps after which the field is no longer renewed."""
+"""Number of steps after which the field is no longer renewed (unit)."""
 _SHEET_SHARE = 0.2
 """Share of its weight that a row gets on a sheet: there, thickness and lengths say more than a smooth field, whose
-errors at neighbouring spans are nearly the same."""
+errors at neighbouring spans are nearly the same (unit)."""
 _NEGLIGIBLE_SHARE = 0.01
-"""Share of a row's weight that is negligible."""
+"""Share of a row's weight that is negligible (unit)."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 """Kriging of a displacement in space from single components of it: Gaussian process regression of a vector field.
 
 Formulas and their numbers are those of Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006. The three
-components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8).
+components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8). Own code
+because scikit-learn's regression knows values of a whole function alone, not components in a direction of each place.
 """
 from __future__ import annotations
 
@@ -17,16 +18,15 @@ from scipy.spatial.distance import cdist
 from ...arrays import Array, Index
 
 _TRIED_LENGTHS = (0.06, 0.1, 0.16, 0.25, 0.4, 0.7)
-"""Tried for the length over which the field changes, relative to the extent of the places."""
+"""Tried for the length over which the field changes, relative to the extent of the places (unit)."""
 _TRIED_NOISES = (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
-"""Tried for the variance of the noise, relative to that of the field."""
+"""Tried for the variance of the noise, relative to that of the field (unit)."""
 _LEAST_VARIANCE = 1e-12
-"""Variance in mm² of a part that has not moved at all."""
+"""Variance in mm² of a part that has not moved at all (unit)."""
 _LIKELIHOOD_SAMPLE = 400
-"""Number of observations that the likelihood is computed from."""
-
+"""Number of observations that the likelihood is computed from (unit: time)."""
 _LOT = 512
-"""Places that are looked at together."""
+"""Places that are looked at together (unit: memory)."""
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from .correspondence import Correspondence
 from .scatter import Scatter, model_noise, of_cells, patch_sums, sensor_noise, spread
 
 _MEDIAN_EFFICIENCY = 0.64
+"""Of the median of very many points against their mean: 2/π (theory)."""
 
 
 @dataclass(frozen=True)

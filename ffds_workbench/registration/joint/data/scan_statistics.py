@@ -10,9 +10,10 @@ from scipy.spatial import cKDTree
 from ...arrays import Array
 
 _PLANE_NEIGHBOURS = 16
-_SLAB_QUANTILES = (0.2, 0.4, 0.6, 0.8)
-_SLAB_POINTS = 5000
-_PROBES_PER_SLAB = 200
+"""Points that a plane is put through, with the one in their middle (unit: few, as a surface is curved)."""
+_SLAB_QUANTILES, _SLAB_POINTS, _PROBES_PER_SLAB = (0.2, 0.4, 0.6, 0.8), 5000, 200
+"""Where across the scan its slabs lie, how many points they have, and how many of these are looked around (unit:
+800 probes tell both medians to two per cent)."""
 
 
 @dataclass(frozen=True)

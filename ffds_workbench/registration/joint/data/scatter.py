@@ -22,8 +22,9 @@ PATCHES_PER_SPAN = 2
 _PRIOR_COUNT = 50.0
 """Differences that the whole part counts for beside those of a face (unit: some spans)."""
 _LEAST_DIFFERENCES = 20
+"""Fewer do not tell a variance to a third, √(2/20) (theory)."""
 _LEAST_WEIGHT = 0.5
-"""Of a point, that a patch has to have."""
+"""Of a point, that a patch has to have (unit)."""
 _LARGEST_EXCESS = 20.0
 """Excess over its upper quartile from which a squared difference is cut: that of normal ones is below it once in ten
 thousand (theory)."""

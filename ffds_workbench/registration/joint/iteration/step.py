@@ -21,7 +21,7 @@ from .state import EarlierFactor, EdgeCache, State, StepCache
 _MATCHES_LAST = 0.1
 """After a step smaller than this in mm, points keep their cells: it is a small share of a cell."""
 _FACTOR_LASTS = 0.03
-"""A factor is not used for a matrix with less than this share of its bending weight."""
+"""A factor is not used for a matrix with less than this share of its bending weight (unit: time)."""
 
 
 def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The sparse linear system: `normal_equations` that rows are added to, `system` (their pattern and solution),
-`cholesky` (multifrontal factor and selected inverse), `dissection` (the elimination order) and `memory` (what all of it
-takes).
+`cholesky` (multifrontal factor and selected inverse), `elimination_order` (nested dissection) and `memory` (what all of
+it takes).
 """
 from .cholesky import FrontCholesky
 from .memory import refuse_too_large

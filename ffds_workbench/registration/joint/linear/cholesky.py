@@ -4,6 +4,9 @@
 Every front is a dense matrix, so that all work is in BLAS (the multifrontal method of Duff and Reid, ACM TOMS 9, 1983).
 They lie in memory the way BLAS wants them, so that it factors them in place.
 The inverse is computed on the fronts alone, from the roots down (selected inversion; Takahashi, Fagan, Chin, 1973).
+
+Own code because scipy has no sparse Cholesky, and the bands need blocks of the inverse: scikit-sparse, which is not in
+Debian 12, gives the factor alone.
 """
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from ...arrays import Array, Index
-from .dissection import Front
+from .elimination_order import Front
 
 _Runs = list[tuple[slice, slice]]
 

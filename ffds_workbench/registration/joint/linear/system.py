@@ -12,11 +12,13 @@ from scipy.sparse import bsr_matrix, csr_matrix, spmatrix, triu
 from ...arrays import Array, Index
 from ..surfaces import Lattices
 from .cholesky import FrontCholesky, FrontLayout
-from .dissection import dissect
+from .elimination_order import dissect
 
 _CG_STEPS = 12
-"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too."""
+"""Steps after which a new factor is cheaper: it costs as much as some 30 of them, and the next steps need it too
+(unit: time)."""
 _CG_TOLERANCE = 3e-3
+"""Of the energy norm of the error, where conjugate gradients stop (unit: the next step corrects the rest)."""
 _LOT = 512
 """Spans whose matrices are made together: those of all would take much memory."""
 _PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)

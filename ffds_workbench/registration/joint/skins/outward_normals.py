@@ -18,7 +18,8 @@ from .skin_points import SkinPoints, skin_points
 from .smooth_pieces import smooth_pieces
 
 _TOO_THICK = 3.0
-"""In a sheet thicker than this many times the expected displacement, the two sides cannot be confused."""
+"""In a sheet thicker than this many times the expected displacement, the two sides cannot be confused (unit)."""
+# What is clearly less is a judgement (unit), tried on the sheets of tests/registration/test_joint_skins.py.
 _CLOSER = 0.85
 """A sign is chosen for a piece if its points then lie closer to the part, by this factor, than with the other sign."""
 _LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
@@ -39,7 +40,7 @@ normals on more than the third share."""
 _FARTHEST_IN_NOISES = 4.0
 """Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
-"""A scan point takes the normal of a point of the sketch within this many mean spacings."""
+"""A scan point takes the normal of a point of the sketch within this many mean spacings (unit)."""
 
 
 def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:

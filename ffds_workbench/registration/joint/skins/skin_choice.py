@@ -14,6 +14,7 @@ from ..prior_trust import prior_cost
 from ..problem import Problem
 from ..surfaces import normals
 
+# What is clearly less is a judgement (unit), tried on the sheets of tests/registration/test_joint_shapes.py.
 _COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
 """The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
 standard deviations away, 3² in chi-square units."""

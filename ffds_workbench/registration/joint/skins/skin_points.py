@@ -13,19 +13,19 @@ from ...scan_normals import plane_normals
 from ..data import ScanStatistics
 
 _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100
-"""Neighbours that a plane is put through."""
+"""Neighbours that a plane is put through (unit)."""
 _PLANE_TURN = 0.15
-"""Standard deviation in rad that noise may turn a plane by; in a disc of radius r with k points it is 2σ/(r√k)."""
+"""Standard deviation in rad that noise may turn a plane by (unit); that of k points in a disc of radius r: 2σ/(r√k)."""
 _ONE_SKIN_RADIUS, _MIXED_RADIUS, _BOTH_SKINS_RADIUS = 0.5, 0.8, 2.0
 """Radius of a neighbourhood over the thickness up to which it holds points of one skin, from which it may hold some of
-the other, and from which those turn its plane no more: two parallel planes have the normal of one."""
+the other, and from which those turn its plane no more: two parallel planes have the normal of one (unit)."""
 _COUNT_BOUNDS, _POINT_DISTANCE, _SPARE_FACTOR = (2500, 40_000), 0.6, 2
 """Points that tell sides, at least and at most; their distance over the thickness, as far ones link skins; and how many
 times as many even ones are taken from."""
 _ROUNDS = 3
-"""Sizes of cubes that are tried."""
+"""Sizes of cubes that are tried (unit)."""
 _STRAY_DISTANCE = 3.0
-"""A point whose neighbours are farther by this factor than they usually are is no part of a surface."""
+"""A point whose neighbours are farther by this factor than they usually are is no part of a surface (unit)."""
 
 
 @dataclass(frozen=True)

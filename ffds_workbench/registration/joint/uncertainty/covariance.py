@@ -12,8 +12,9 @@ from ..problem import Problem
 from .shared_noise import shared_errors
 
 _PRIORS_WIDE_ENOUGH = 1.2
-"""Priors are widened if their cost exceeds the effective degrees of freedom by more than this factor."""
+"""Priors are widened if their cost exceeds the effective degrees of freedom by more than this factor (unit)."""
 _HUTCHINSON_PROBES = 16
+"""Vectors of random signs: they tell a trace T to √(2/16 T) or better (theory: Hutchinson)."""
 
 
 def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Coarse-to-fine iterative closest point: point to surface, with the faces' curvature and Tukey's weights."""
+"""Coarse-to-fine iterative closest point: point to surface, with the faces' curvature and Tukey's weights.
+
+Own code because open3d's is from points to planes and knows no curvature.
+"""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -3,6 +3,7 @@
 
 Found once per part, from where the control points lie and which of them meet in a row (George, SIAM J. Numer. Anal. 10,
 1973). Fill-in and work then grow as n log n and n^1.5 on a surface, far below those of a banded order.
+Own code because scipy orders by bands only (reverse Cuthill and McKee), and Debian 12 has no METIS for Python.
 """
 from __future__ import annotations
 
@@ -15,9 +16,9 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from ...arrays import Array, Index
 
 _LEAF_NODES = 100
-"""Nodes that are not cut any further: a dense matrix of theirs is as fast."""
+"""Nodes that are not cut any further: a dense matrix of theirs is as fast (unit: time)."""
 _UNBALANCE = 0.1
-"""Nodes of a separator that a difference of one node between its sides is worth."""
+"""Nodes of a separator that a difference of one node between its sides is worth (unit: time)."""
 
 
 @dataclass(frozen=True)
