@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pieces of the joint solve, each against an independent computation."""
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
@@ -9,7 +11,7 @@ import Part
 
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
-from ffds_workbench.registration.joint import JointSettings
+from ffds_workbench.registration.joint import JointSettings, solve
 from ffds_workbench.registration.joint.data.borders import find_borders, find_near_edges
 from ffds_workbench.registration.joint.data.scan_statistics import scan_statistics
 from ffds_workbench.registration.joint.linear.cholesky import FrontCholesky, FrontLayout
@@ -17,6 +19,7 @@ from ffds_workbench.registration.joint.linear.elimination_order import dissect
 from ffds_workbench.registration.joint.linear.system import Pattern
 from ffds_workbench.registration.joint.priors.stiffness import GAUSS_PLACES, make_stiffness
 from ffds_workbench.registration.joint.problem import make_problem
+from ffds_workbench.registration.joint.settings import Stage
 from ffds_workbench.registration.joint.surfaces.cells import make_span_grid, normals
 from ffds_workbench.registration.joint.surfaces import span_counts
 from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
@@ -184,6 +187,20 @@ def plate_problem(random):
     part = joint_part(read(Part.makeBox(50.0, 40.0, 2.0)))
     scan = np.column_stack([random.uniform(0, [50, 40], (20000, 2)), np.full(20000, 2.0)])
     return make_problem(part, scan, JointSettings(), {})
+
+
+STEPS = (1.0, 0.5, 0.49, 0.4, 0.3, 0.25, 0.2, 0.15)
+
+
+@pytest.mark.parametrize("all_points, taken", [(False, 3), (True, 8)])
+def test_the_first_soft_stage_ends_when_its_steps_no_longer_shrink(all_points, taken, monkeypatch):
+    """With the trust settled, the third step is hardly smaller than the second: more of them would only wander."""
+    problem = plate_problem(np.random.default_rng(12))
+    monkeypatch.setattr(solve, "update_prior_trust", lambda problem, state, stage: state)
+    monkeypatch.setattr(solve, "gauss_newton_step", lambda problem, stage, state: replace(
+        state, last_step=STEPS[state.iterations], iterations=state.iterations + 1))
+    stage = Stage(1.0, 1.0, 8, 0.04, soft=True, all_points=all_points)
+    assert solve.run_stage(problem, stage, solve.start(problem)).iterations == taken
 
 
 def test_points_at_random_put_edges_where_they_are():

@@ -29,6 +29,9 @@ Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
 """While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
 times the last one: shapes follow it slowly."""
+_SHRINKS = 0.9
+"""The first soft stage, which finds how far priors are trusted, ends when that has settled and a step is larger than
+this times the last one: what goes on moving is held by priors alone, and those are trusted more again in the next."""
 _NO_MORE_STIFF_STAGES = 0.05
 """If a stiff stage ends with a step smaller than this in mm, the remaining stiff stages are skipped."""
 
@@ -127,8 +130,10 @@ def run_stage(problem: Problem, stage: Stage, state: State,
         if not promising(judged):
             return judged
         state = gauss_newton_step(problem, stage, judged)
-        loosening = stage.all_points and state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
-        if state.last_step < stage.enough and not (loosening and _misfits_scan(problem, state)):
+        loosening = state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
+        if state.last_step < stage.enough and not (stage.all_points and loosening and _misfits_scan(problem, state)):
+            break
+        if stage.soft and not stage.all_points and not loosening and state.last_step > _SHRINKS * before.last_step:
             break
     return state
 
