@@ -37,7 +37,7 @@ def freecad_version() -> str:
 
 def stored_edges(wire: Any, face: Any) -> list[Any]:
     """The edges of a face's wire, in the order and with the orientation in which it holds them; a seam stands there
-    twice, which FreeCAD 1.1 lists once."""
+    twice, which FreeCAD 1.0 and later list once."""
     edges = wire.childShapes(False, True)
     return edges + [edge.reversed() for edge in edges if edge.isSeam(face)] if _lists_seams_once() else edges
 

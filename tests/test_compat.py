@@ -62,7 +62,7 @@ def test_step_files_have_the_edges_in_their_faces_parameters(tmp_path):
 
 
 def test_a_seam_stands_twice_in_its_wire():
-    """Once each way: FreeCAD 1.1 lists it once, and the way it does changes as the shape goes through a file."""
+    """Once each way: FreeCAD 1.0 lists it once, and the way it does changes as the shape goes through a file."""
     face = Part.makeCylinder(3, 5).Faces[0]
     wire, = face.Wires
     seam = [edge for edge in compat.stored_edges(wire, face) if edge.isSeam(face)]

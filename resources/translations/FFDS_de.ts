@@ -1131,7 +1131,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>A box is X0,Y0,Z0,X1,Y1,Z1, the lower corner first: each of X0,Y0,Z0 must be below its X1,Y1,Z1.</source>
-      <translation type="unfinished" />
+      <translation>Ein Quader ist X0,Y0,Z0,X1,Y1,Z1, die untere Ecke zuerst: X0,Y0,Z0 müssen jeweils kleiner sein als X1,Y1,Z1.</translation>
     </message>
     <message>
       <source>A face of {0} is named, but {1} is made from {2}: choose faces of one part.</source>
@@ -1159,7 +1159,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>A view point is for normals: ask for them too (--normals).</source>
-      <translation type="unfinished" />
+      <translation>Ein Blickpunkt dient den Normalen: Verlangen Sie auch diese (--normals).</translation>
     </message>
     <message>
       <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
@@ -1207,11 +1207,11 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>Cropping to a model needs both, the model and a distance from it.</source>
-      <translation type="unfinished" />
+      <translation>Das Zuschneiden auf ein Modell braucht beides, das Modell und einen Abstand davon.</translation>
     </message>
     <message>
       <source>Cropping to the model</source>
-      <translation type="unfinished" />
+      <translation>Auf das Modell zuschneiden</translation>
     </message>
     <message>
       <source>Edge{0} and its faces run at different parameters: repair the shape first.</source>
@@ -1235,7 +1235,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>Estimating normals</source>
-      <translation type="unfinished" />
+      <translation>Normalen schätzen</translation>
     </message>
     <message>
       <source>Every face is frozen: leave at least one face free to move.</source>
@@ -1279,19 +1279,19 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>Looking for clutter</source>
-      <translation type="unfinished" />
+      <translation>Störendes suchen</translation>
     </message>
     <message>
       <source>Looking for outliers</source>
-      <translation type="unfinished" />
+      <translation>Ausreißer suchen</translation>
     </message>
     <message>
       <source>Looking for the table</source>
-      <translation type="unfinished" />
+      <translation>Den Tisch suchen</translation>
     </message>
     <message>
       <source>Matching the scans</source>
-      <translation type="unfinished" />
+      <translation>Scans aneinander ausrichten</translation>
     </message>
     <message>
       <source>Measuring the deviation</source>
@@ -1339,7 +1339,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>No step was asked for: name one, for instance --remove-plane, --remove-clutter or --spacing.</source>
-      <translation type="unfinished" />
+      <translation>Es wurde kein Schritt verlangt: Nennen Sie einen, zum Beispiel --remove-plane, --remove-clutter oder --spacing.</translation>
     </message>
     <message>
       <source>Noise, correlation, holes, edge band and pose error of a scan cannot be negative.</source>
@@ -1363,7 +1363,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>Preparing has no such setting: {0}.</source>
-      <translation type="unfinished" />
+      <translation>Eine solche Einstellung gibt es beim Aufbereiten nicht: {0}.</translation>
     </message>
     <message>
       <source>Reading the model</source>
@@ -1543,7 +1543,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The origin of the scan's coordinates lies within the scan, so that no sensor stood there: say where it stood (--view X,Y,Z).</source>
-      <translation type="unfinished" />
+      <translation>Der Ursprung der Scankoordinaten liegt innerhalb des Scans, dort stand also kein Sensor: Geben Sie an, wo er stand (--view X,Y,Z).</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
@@ -1607,15 +1607,15 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The poses {0} are no JSON.</source>
-      <translation type="unfinished" />
+      <translation>Die Posen {0} sind kein JSON.</translation>
     </message>
     <message>
       <source>The poses {0} are no list: write one (4, 4) matrix for each scan, in their order.</source>
-      <translation type="unfinished" />
+      <translation>Die Posen {0} sind keine Liste: Schreiben Sie für jeden Scan eine (4, 4)-Matrix, in der Reihenfolge der Scans.</translation>
     </message>
     <message>
       <source>The poses {0} cannot be read: {1}.</source>
-      <translation type="unfinished" />
+      <translation>Die Posen {0} können nicht gelesen werden: {1}.</translation>
     </message>
     <message>
       <source>The program has no poses with X, Y and Z.</source>
@@ -1711,7 +1711,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The scan {0} does not overlap with {1} or what overlaps with it: its pose is wrong, or the scans are of different sides; a scan between them would join them.</source>
-      <translation type="unfinished" />
+      <translation>Der Scan {0} überlappt weder {1} noch Scans, die mit diesem zusammenhängen: Seine Pose ist falsch, oder die Scans zeigen verschiedene Seiten; ein Scan dazwischen würde sie verbinden.</translation>
     </message>
     <message>
       <source>The scan {0} has no vertices: nothing can be registered to it.</source>
@@ -1759,7 +1759,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The scan {0} is damaged or cut off: its points cannot be read.</source>
-      <translation type="unfinished" />
+      <translation>Der Scan {0} ist beschädigt oder abgeschnitten: Seine Punkte können nicht gelesen werden.</translation>
     </message>
     <message>
       <source>The scan {0} is damaged or no text of points: line {1} has fewer than {2} values.</source>
@@ -1839,7 +1839,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The scan {0} needs {1}, which is not installed: install it, or save the scan as .ply or .e57.</source>
-      <translation type="unfinished" />
+      <translation>Der Scan {0} braucht {1}, was nicht installiert ist: Installieren Sie es, oder speichern Sie den Scan als .ply oder .e57.</translation>
     </message>
     <message>
       <source>The seam branches after Edge{0}: {1} both go on from it; name the edges one by one.</source>
@@ -1903,7 +1903,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The step '{0}' would leave nothing of the scan: leave it out.</source>
-      <translation type="unfinished" />
+      <translation>Der Schritt „{0}“ ließe nichts vom Scan übrig: Lassen Sie ihn weg.</translation>
     </message>
     <message>
       <source>The stiffness {0} makes no sense: 1 is the default, use {1} to {2}.</source>
@@ -1947,7 +1947,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The {0} is a length above 0 mm, not {1}.</source>
-      <translation type="unfinished" />
+      <translation>„{0}“ ist eine Länge über 0 mm, nicht {1}.</translation>
     </message>
     <message>
       <source>The {0} must lie within ±80°, not {1}°.</source>
@@ -1967,7 +1967,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>There are {0} poses for {1} scans: give one for each, in their order.</source>
-      <translation type="unfinished" />
+      <translation>Es gibt {0} Posen für {1} Scans: Geben Sie für jeden eine an, in der Reihenfolge der Scans.</translation>
     </message>
     <message>
       <source>There is no part: select one, or choose one in the properties.</source>
@@ -2055,7 +2055,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>open3d is not installed, and {0} needs it: install it (Debian: python3-open3d), or leave this step out.</source>
-      <translation type="unfinished" />
+      <translation>open3d ist nicht installiert und wird gebraucht für {0}: Installieren Sie es (Debian: python3-open3d), oder lassen Sie diesen Schritt weg.</translation>
     </message>
     <message>
       <source>part</source>
@@ -2187,7 +2187,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>{0} is no pose: give a (4, 4) matrix of a rotation and a shift in mm.</source>
-      <translation type="unfinished" />
+      <translation>{0} ist keine Pose: Geben Sie eine (4, 4)-Matrix aus einer Drehung und einer Verschiebung in mm an.</translation>
     </message>
     <message>
       <source>{0} is not the last feature of {1}: select the body as it is now.</source>

@@ -112,6 +112,14 @@ def test_the_real_scans(shared_data):
     assert (after > 8.0).sum() > 0.99 * (before > 8.0).sum()
 
 
+def test_a_scan_that_was_read_twice_has_a_spacing():
+    points, label = _scene(8000)
+    part = points[label == PART]
+    once, twice = (prepare([PointCloud(scan)], PreparationSettings(remove_clutter=True))
+                   for scan in (part, np.concatenate([part, part])))
+    assert twice.spacing == pytest.approx(once.spacing, rel=0.05) and twice.steps[0].after == 2 * once.steps[0].after
+
+
 def test_crops():
     points, label = _scene(8000)
     box = (-20.0, -20.0, -20.0, 20.0, 20.0, 20.0)

@@ -140,7 +140,7 @@ class EvidenceSettings:
 class VerdictSettings:
     """When poses are one, when they fit alike, and when one is good enough."""
 
-    least_certainty: float = 0.79        # calibrated
+    least_certainty: float = 0.80        # calibrated
     least_coverage: float = 0.12         # unit: a scan of an eighth of a part is a scan of that part
     sure_certainty: float = 0.95         # theory: less than what 20 % of stray points take away
     least_points: int = 50               # theory: eight for each degree of freedom

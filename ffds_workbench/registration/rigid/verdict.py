@@ -78,8 +78,12 @@ def _rivals(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis], sym
 
     rivals: list[CandidatePose] = []
     for motion in symmetry.motions[symmetry.exact]:
-        if is_new(motion @ best.pose):
-            rivals.append(CandidatePose(motion @ best.pose, score, "symmetry of the part"))
+        pose = motion @ best.pose
+        if not is_new(pose):
+            continue
+        if symmetry.axis is None:  # "the same" but for small things, which hold the pose where they are right
+            pose = polish(target, scan.sketch, pose, best.normals @ motion[:3, :3].T)[0]
+        rivals.append(CandidatePose(pose, score, "symmetry of the part"))
     for other in sorted(hypotheses, key=lambda one: -one.evidence.score):
         if other.evidence.score > score - settings.score_margin * (1.0 - score) and is_new(other.pose):
             pose = polish(target, scan.sketch, other.pose, other.normals_of(scan.sketch, other.pose))[0]

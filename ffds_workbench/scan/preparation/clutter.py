@@ -23,6 +23,8 @@ def in_large_pieces(points: Array, spacing: float) -> tuple[NDArray[np.bool_], i
     The pieces are those of open3d's DBSCAN, among one point of each cube with the spacing as its edge.
     """
     open3d = library.open3d("removing clutter")
+    if spacing <= 0.0:
+        return np.zeros(len(points), dtype=bool), 0
     first, cube = _cubes(points, spacing)
     piece = np.asarray(library.cloud(open3d, points[first]).cluster_dbscan(_REACH * spacing, _CORE), dtype=int)[cube]
     counts = np.bincount(piece[piece >= 0], minlength=1)
