@@ -24,7 +24,7 @@ _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
 _POINTS_PER_SPAN = 20.0
 _FEWEST_POINTS = 50
-_TRIM_MARGIN = 0.55
+_TRIM_MARGIN = 0.62
 """Over the side of a cell: nearer to the border of a face, a cell would hold points of its neighbour (theory: half of
 it, and a little for what a shape is off)."""
 _FARTHEST_IN_MARGINS = 4.0
