@@ -27,9 +27,6 @@ _FEWEST_POINTS = 50
 _TRIM_MARGIN = 0.62
 """Over the side of a cell: nearer to the border of a face, a cell would hold points of its neighbour (theory: half of
 it, and a little for what a shape is off)."""
-_MARGIN_IN_NOISES = 9.0
-"""Over the noise: this far from an edge of 37 degrees, three standard deviations carry a point just half way to the
-face beyond, however large the cells are (unit: edges are no sharper)."""
 _FARTHEST_IN_MARGINS = 4.0
 """Distances from the border are known up to this (theory: nothing asks for more)."""
 _CELLS_PER_SPAN = (3, 10)
@@ -146,8 +143,8 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                        sizes, settings.thickness_change)
     lengths, apart = find_lengths(lattices, cells, sample, statistics)
     side = cell_sides(lattices, cells)
-    most = np.maximum(np.minimum(_TRIM_MARGIN * side, _MARGIN_IN_NOISES * lengths.noise), lengths.noise)
-    distance = distance_to_trims(part.faces, lattices, cells, side, _FARTHEST_IN_MARGINS * most)
+    most = np.maximum(_TRIM_MARGIN * side, lengths.noise)
+    distance = distance_to_trims(part.faces, lattices, cells, most, _FARTHEST_IN_MARGINS * most)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells, sizes), settings, lengths,
                                len(scan) / lengths.start**2)
     others = couplings.matrices()
