@@ -144,7 +144,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     lengths, apart = find_lengths(lattices, cells, sample, statistics)
     side = cell_sides(lattices, cells)
     most = np.maximum(_TRIM_MARGIN * side, lengths.noise)
-    distance = distance_to_trims(part.faces, lattices, cells, side, _FARTHEST_IN_MARGINS * most)
+    distance = distance_to_trims(part.faces, lattices, cells, most, _FARTHEST_IN_MARGINS * most)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells, sizes), settings, lengths,
                                len(scan) / lengths.start**2)
     others = couplings.matrices()

@@ -20,8 +20,9 @@ from .lattices import Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
-_BORDER_SPACING = 0.25
-"""Of places along the border of a face, over the sides of its cells: their distance from it is right to 2 % (unit)."""
+_BORDER_SPACING = 0.2467
+"""Of places along the border of a face, over the least distance that is asked for: it is right to 2 % (unit). No ratio
+of whole numbers: borders are whole numbers of cells long, and rounding must not choose how many places there are."""
 _FACE_SEPARATION = 1e6
 _LOT = 512
 """Spans that are moved together: what they need on the way stays in the cache."""
@@ -155,7 +156,7 @@ def cell_sides(lattices: Lattices, cells: SpanGrid) -> Array:
     return np.asarray(np.bincount(lattices.face_of_span, sides.max(axis=1)) / count)
 
 
-def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid, side: Array,
+def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid, least: Array,
                       farthest: Array) -> Array:
     """Distance in mm of each cell from the border of its face, at most the ``farthest`` that matters there, (faces,);
     negative outside: (spans, k).
@@ -165,11 +166,11 @@ def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells
     faces : of the part
     lattices : of all faces
     cells : places on all faces, span by span
-    side : (faces,) `cell_sides` in mm
+    least : (faces,) distance in mm from which on cells are told from the border
     """
     distance = np.repeat(farthest[lattices.face_of_span, None], cells.inside.shape[1], axis=1)
     for index, face in enumerate(faces):
-        border = boundary_points(face, _BORDER_SPACING * side[index])
+        border = boundary_points(face, _BORDER_SPACING * least[index])
         if len(border):
             spans, most = np.flatnonzero(lattices.face_of_span == index), farthest[index]
             position = cells.nominal.position[spans].reshape(-1, 3)
