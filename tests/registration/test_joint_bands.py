@@ -40,17 +40,28 @@ def stepped(problem):
 def dense(problem, stepped):
     """The normal matrix and that of the priors, (3 controls, 3 controls)."""
     equations = prior_equations(problem, stepped, 1.0)
-    prior = problem.pattern.matrix(equations.blocks.copy()).toarray()
+    prior = _dense(problem, equations.blocks.copy())
     jet = problem.cells.displaced(problem.lattices, stepped.control_points)
     add_observations(equations, problem, stepped, jet)
-    return problem.pattern.matrix(equations.blocks).toarray(), prior
+    return _dense(problem, equations.blocks), prior
+
+
+def _dense(problem, blocks):
+    """The whole symmetric matrix, (3 controls, 3 controls)."""
+    return problem.pattern.product(blocks)(np.eye(3 * problem.lattices.count))
+
+
+def _blocks_of(problem, matrix):
+    """Of a matrix, (3 controls, 3 controls), what the pattern holds: (3, 3, size)."""
+    count = problem.lattices.count
+    by_node = matrix.reshape(count, 3, count, 3).transpose(1, 3, 0, 2)
+    return np.ascontiguousarray(by_node[:, :, problem.pattern.rows, problem.pattern.indices])
 
 
 def test_the_covariance_is_the_inverse_of_the_normal_matrix(problem, stepped, dense, monkeypatch):
     monkeypatch.setattr(covariance, "_PRIORS_WIDE_ENOUGH", np.inf)
     blocks, errors = covariance.covariance_blocks(problem, stepped)
-    inverse = np.linalg.inv(dense[0]).reshape(problem.lattices.count, 3, problem.lattices.count, 3)
-    wanted = inverse.transpose(0, 2, 1, 3)[problem.pattern.rows, problem.pattern.indices]
+    wanted = _blocks_of(problem, np.linalg.inv(dense[0]))
     # The condition number is some 1e9 (weights from 1e-2 to 1e7): half of the digits are left.
     assert np.abs(blocks - wanted).max() < 1e-6 * np.abs(wanted).max()
     assert errors.shape == (0, problem.lattices.count, 3)  # of white noise
@@ -58,11 +69,8 @@ def test_the_covariance_is_the_inverse_of_the_normal_matrix(problem, stepped, de
 
 def test_the_scan_determines_as_many_shapes_as_the_trace_says(problem, dense):
     normal, prior = dense
-    factor = covariance.FrontCholesky(problem.pattern.layout, np.ascontiguousarray(
-        normal.reshape(problem.lattices.count, 3, problem.lattices.count, 3).transpose(0, 2, 1, 3)[
-            problem.pattern.rows, problem.pattern.indices]))
-    blocks = prior.reshape(problem.lattices.count, 3, problem.lattices.count, 3).transpose(0, 2, 1, 3)[
-        problem.pattern.rows, problem.pattern.indices]
+    factor = covariance.FrontCholesky(problem.pattern.layout, _blocks_of(problem, normal))
+    blocks = _blocks_of(problem, prior)
     trace = len(normal) - np.trace(np.linalg.solve(normal, prior))
     # Hutchinson's variance of 16 probes is 2 Σ_{i≠j} m_ij² / 16, of a matrix whose squares add up to less than its
     # trace.
@@ -75,15 +83,14 @@ def test_priors_that_cost_too_much_are_widened(problem, stepped, dense, monkeypa
     monkeypatch.setattr(covariance, "prior_cost", lambda *_: 400.0)
     monkeypatch.setattr(covariance, "_effective_dof", lambda *_: 100.0)
     blocks, _ = covariance.covariance_blocks(problem, stepped)
-    inverse = np.linalg.inv(normal - 0.75 * prior).reshape(problem.lattices.count, 3, problem.lattices.count, 3)
-    wanted = inverse.transpose(0, 2, 1, 3)[problem.pattern.rows, problem.pattern.indices]
+    wanted = _blocks_of(problem, np.linalg.inv(normal - 0.75 * prior))
     assert np.abs(blocks - wanted).max() < 1e-6 * np.abs(wanted).max()
 
 
 def independent(problem, sigma):
     """Blocks of the covariance of control points that err by themselves, by ``sigma`` (3,) in x, y and z."""
     same = problem.pattern.rows == problem.pattern.indices
-    return same[:, None, None] * np.diag(np.square(sigma))
+    return np.diag(np.square(sigma))[:, :, None] * same
 
 
 def bands_of(problem, blocks, **given):

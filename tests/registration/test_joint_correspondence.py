@@ -34,9 +34,15 @@ def cylinder():
     return make_problem(part, around(20_000, 0.0, LENGTH)[3], JointSettings(), {})
 
 
+def held_between(cylinder):
+    """Heights in mm between which every place belongs to a cell that holds points: half a cell from the margin."""
+    aside = cylinder.margin.max() + 0.5 * largest_cell(cylinder)
+    return aside, LENGTH - aside
+
+
 def test_height_above_a_cylinder(cylinder):
     """h = R' − R; the second form takes off all but h φ²/2 · (1 + h/R) at an angle φ from the middle of the cell."""
-    _, _, above, points = around(5000, 2.0, LENGTH - 2.0, seed=1)
+    _, _, above, points = around(5000, *held_between(cylinder), seed=1)
     found = correspond(points, frames_of(cylinder), 1.0)
     cells_around = cylinder.lattices.faces[0].spans[0] * np.sqrt(cylinder.cells.inside.shape[1])
     assert len(found.point) == len(points)
@@ -45,7 +51,7 @@ def test_height_above_a_cylinder(cylinder):
 
 
 def test_points_beyond_the_gate_are_left_out(cylinder):
-    _, _, above, points = around(5000, 2.0, LENGTH - 2.0, seed=2)
+    _, _, above, points = around(5000, *held_between(cylinder), seed=2)
     found = correspond(points, frames_of(cylinder), 0.2)
     # Heights are off by 2e-4 mm at 0.2, see above; none of the seed's points lies so near the gate.
     assert set(found.point) == set(np.flatnonzero(np.abs(above) < 0.2))
@@ -72,8 +78,8 @@ def test_no_point_counts_beyond_the_border_or_close_to_it(plate):
     from_sides = np.minimum(points[:, :2], [60, 40] - points[:, :2]).min(axis=1)
     distance, margin = np.minimum(from_hole, from_sides)[found.point], plate.margin.min()
     # A cell holds points up to three quarters of its sides from its middle.
-    assert distance.min() > margin - 0.75 * plate_cell(plate) * np.sqrt(2)
-    inside = np.flatnonzero(np.minimum(from_hole, from_sides) > plate.margin.max() + plate_cell(plate) * np.sqrt(2))
+    assert distance.min() > margin - 0.75 * largest_cell(plate) * np.sqrt(2)
+    inside = np.flatnonzero(np.minimum(from_hole, from_sides) > plate.margin.max() + largest_cell(plate) * np.sqrt(2))
     assert set(inside) <= set(found.point)
 
 
@@ -82,7 +88,7 @@ def normals_up(problem):
     return normals(problem.cells.nominal, problem.cells.outward)[0].reshape(-1, 3)[:, 2]
 
 
-def plate_cell(problem):
+def largest_cell(problem):
     """The longer side of a cell in mm."""
     return float((problem.lattices.step * np.linalg.norm(problem.cells.nominal.tangents[:, 0], axis=2)).max()
                  / np.sqrt(problem.cells.inside.shape[1]))
