@@ -2214,8 +2214,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} liegt nur auf {1} mm an einem anderen Teil, zu kurz für eine Naht.</translation>
     </message>
     <message>
-      <source>{0} links to a document that is missing or damaged, in '{1}': put it where it was, or pick another object with --object.</source>
-      <translation>{0} verweist in „{1}“ auf ein Dokument, das fehlt oder beschädigt ist: Legen Sie es dorthin, wo es war, oder wählen Sie mit --object ein anderes Objekt.</translation>
+      <source>{0} links to another file in '{1}', and such links are not followed: copy the linked part into this document, or pick another object with --object.</source>
+      <translation>{0} verweist in „{1}“ auf eine andere Datei, und solchen Verweisen wird nicht gefolgt: Kopieren Sie das verknüpfte Teil in dieses Dokument, oder wählen Sie mit --object ein anderes Objekt.</translation>
     </message>
     <message>
       <source>{0} source points are too few: {1} are the least.</source>

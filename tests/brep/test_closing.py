@@ -10,7 +10,7 @@ from ffds_workbench.brep.continuity.edge_closing import closing_displacements
 from ffds_workbench.brep.rebuild import rebuild
 from ffds_workbench.brep.topology import edge_traces
 from ffds_workbench.brep.workpiece import read
-from ffds_workbench.registration.joint.surfaces import build_lattices, span_counts
+from ffds_workbench.registration.joint.surfaces import build_lattices, solid_sizes, span_counts
 
 MISMATCH = 2e-3
 GAP = 1e-4
@@ -25,7 +25,8 @@ def workpiece():
 def fields(workpiece, faces, common=(0.3, -0.2, 0.5)):
     """A common displacement plus a mismatch of each face's own."""
     geometry = tuple(workpiece.geometry(i) for i in range(len(workpiece.faces)))
-    lattices = build_lattices(geometry, span_counts(geometry, [np.arange(len(geometry))], 5.0, np.deg2rad(25), 1e-3))
+    sizes = solid_sizes(geometry, [np.arange(len(geometry))])
+    lattices = build_lattices(geometry, span_counts(geometry, sizes, 5.0, np.deg2rad(25), 1e-3))
     random = np.random.default_rng(4)
     points = MISMATCH / 3 * random.normal(size=(lattices.count, 3)) + np.array(common)
     return {index: lattices.spline(index, points) for index in faces}

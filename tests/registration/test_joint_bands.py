@@ -36,37 +36,44 @@ def stepped(problem):
     return gauss_newton_step(problem, replace(stage, gate=1.0, enough=0.02), start(problem))
 
 
-def full(problem, blocks):
-    """The symmetric matrix (3 controls, 3 controls) of its blocks (3, 3, size), of which the pattern holds the upper
-    half."""
-    count = problem.lattices.count
-    result = np.zeros((count, 3, count, 3))
-    result[problem.pattern.indices, :, problem.pattern.rows, :] = blocks.transpose(2, 1, 0)
-    result[problem.pattern.rows, :, problem.pattern.indices, :] = blocks.transpose(2, 0, 1)
-    return result.reshape(3 * count, 3 * count)
-
-
-def on_pattern(problem, matrix):
-    """The blocks (3, 3, size) of a matrix (3 controls, 3 controls) where the pattern holds them."""
-    count = problem.lattices.count
-    at = matrix.reshape(count, 3, count, 3)[problem.pattern.rows, :, problem.pattern.indices, :]
-    return np.ascontiguousarray(at.transpose(1, 2, 0))
-
-
 @pytest.fixture(scope="module")
 def dense(problem, stepped):
     """The normal matrix and that of the priors, (3 controls, 3 controls)."""
     equations = prior_equations(problem, stepped, 1.0)
-    prior = full(problem, equations.blocks)
+    prior = _dense(problem, equations.blocks)
     jet = problem.cells.displaced(problem.lattices, stepped.control_points)
     add_observations(equations, problem, stepped, jet)
-    return full(problem, equations.blocks), prior
+    return _dense(problem, equations.blocks), prior
+
+
+def _dense(problem, blocks):
+    """The whole symmetric matrix, (3 controls, 3 controls), placed block by block: the truth is none of the solve's."""
+    rows, columns, count = problem.pattern.rows, problem.pattern.indices, problem.lattices.count
+    result = np.zeros((count, 3, count, 3))
+    result[columns, :, rows, :] = blocks.transpose(2, 1, 0)
+    result[rows, :, columns, :] = blocks.transpose(2, 0, 1)
+    return result.reshape(3 * count, 3 * count)
+
+
+def test_the_product_is_that_of_the_whole_matrix(problem, dense):
+    vectors = np.random.default_rng(2).normal(size=(3 * problem.lattices.count, 4))
+    wanted = dense[0] @ vectors
+    found = problem.pattern.product(_blocks_of(problem, dense[0]))(vectors)
+    # Sums of some 150 products, each right to 1e-16 of the largest.
+    assert np.abs(found - wanted).max() < 1e-12 * np.abs(wanted).max()
+
+
+def _blocks_of(problem, matrix):
+    """Of a matrix, (3 controls, 3 controls), what the pattern holds: (3, 3, size)."""
+    count = problem.lattices.count
+    by_node = matrix.reshape(count, 3, count, 3).transpose(1, 3, 0, 2)
+    return np.ascontiguousarray(by_node[:, :, problem.pattern.rows, problem.pattern.indices])
 
 
 def test_the_covariance_is_the_inverse_of_the_normal_matrix(problem, stepped, dense, monkeypatch):
     monkeypatch.setattr(covariance, "_PRIORS_WIDE_ENOUGH", np.inf)
     blocks, errors = covariance.covariance_blocks(problem, stepped)
-    wanted = on_pattern(problem, np.linalg.inv(dense[0]))
+    wanted = _blocks_of(problem, np.linalg.inv(dense[0]))
     # The condition number is some 1e9 (weights from 1e-2 to 1e7): half of the digits are left.
     assert np.abs(blocks - wanted).max() < 1e-6 * np.abs(wanted).max()
     assert errors.shape == (0, problem.lattices.count, 3)  # of white noise
@@ -74,12 +81,12 @@ def test_the_covariance_is_the_inverse_of_the_normal_matrix(problem, stepped, de
 
 def test_the_scan_determines_as_many_shapes_as_the_trace_says(problem, dense):
     normal, prior = dense
-    factor = covariance.FrontCholesky(problem.pattern.layout, on_pattern(problem, normal))
+    factor = covariance.FrontCholesky(problem.pattern.layout, _blocks_of(problem, normal))
+    blocks = _blocks_of(problem, prior)
     trace = len(normal) - np.trace(np.linalg.solve(normal, prior))
     # Hutchinson's variance of 16 probes is 2 Σ_{i≠j} m_ij² / 16, of a matrix whose squares add up to less than its
     # trace.
-    found = covariance._effective_dof(problem, factor, on_pattern(problem, prior))
-    assert abs(found - trace) < 3 * np.sqrt(2 * trace / 16)
+    assert abs(covariance._effective_dof(problem, factor, blocks) - trace) < 3 * np.sqrt(2 * trace / 16)
 
 
 def test_priors_that_cost_too_much_are_widened(problem, stepped, dense, monkeypatch):
@@ -88,13 +95,12 @@ def test_priors_that_cost_too_much_are_widened(problem, stepped, dense, monkeypa
     monkeypatch.setattr(covariance, "prior_cost", lambda *_: 400.0)
     monkeypatch.setattr(covariance, "_effective_dof", lambda *_: 100.0)
     blocks, _ = covariance.covariance_blocks(problem, stepped)
-    wanted = on_pattern(problem, np.linalg.inv(normal - 0.75 * prior))
+    wanted = _blocks_of(problem, np.linalg.inv(normal - 0.75 * prior))
     assert np.abs(blocks - wanted).max() < 1e-6 * np.abs(wanted).max()
 
 
 def independent(problem, sigma):
-    """Blocks (3, 3, size) of the covariance of control points that err by themselves, by ``sigma`` (3,) in x, y and
-    z."""
+    """Blocks of the covariance of control points that err by themselves, by ``sigma`` (3,) in x, y and z."""
     same = problem.pattern.rows == problem.pattern.indices
     return np.diag(np.square(sigma))[:, :, None] * same
 

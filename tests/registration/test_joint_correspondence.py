@@ -34,16 +34,15 @@ def cylinder():
     return make_problem(part, around(20_000, 0.0, LENGTH)[3], JointSettings(), {})
 
 
-def far_from_borders(problem, count, seed):
-    """Points around the cylinder that belong to cells which hold points: a cell within half its side of such a point
-    is farther from the border than the margin."""
-    clear = problem.margin.max() + longer_cell_side(problem) / 2
-    return around(count, clear, LENGTH - clear, seed)[2:]
+def held_between(cylinder):
+    """Heights in mm between which every place belongs to a cell that holds points: half a cell from the margin."""
+    aside = cylinder.margin.max() + 0.5 * largest_cell(cylinder)
+    return aside, LENGTH - aside
 
 
 def test_height_above_a_cylinder(cylinder):
     """h = R' − R; the second form takes off all but h φ²/2 · (1 + h/R) at an angle φ from the middle of the cell."""
-    above, points = far_from_borders(cylinder, 5000, seed=1)
+    _, _, above, points = around(5000, *held_between(cylinder), seed=1)
     found = correspond(points, frames_of(cylinder), 1.0)
     cells_around = cylinder.lattices.faces[0].spans[0] * np.sqrt(cylinder.cells.inside.shape[1])
     assert len(found.point) == len(points)
@@ -52,7 +51,7 @@ def test_height_above_a_cylinder(cylinder):
 
 
 def test_points_beyond_the_gate_are_left_out(cylinder):
-    above, points = far_from_borders(cylinder, 5000, seed=2)
+    _, _, above, points = around(5000, *held_between(cylinder), seed=2)
     found = correspond(points, frames_of(cylinder), 0.2)
     # Heights are off by 2e-4 mm at 0.2, see above; none of the seed's points lies so near the gate.
     assert set(found.point) == set(np.flatnonzero(np.abs(above) < 0.2))
@@ -79,9 +78,8 @@ def test_no_point_counts_beyond_the_border_or_close_to_it(plate):
     from_sides = np.minimum(points[:, :2], [60, 40] - points[:, :2]).min(axis=1)
     distance, margin = np.minimum(from_hole, from_sides)[found.point], plate.margin.min()
     # A cell holds points up to three quarters of its sides from its middle.
-    assert distance.min() > margin - 0.75 * longer_cell_side(plate) * np.sqrt(2)
-    beside = plate.margin.max() + longer_cell_side(plate) * np.sqrt(2)
-    inside = np.flatnonzero(np.minimum(from_hole, from_sides) > beside)
+    assert distance.min() > margin - 0.75 * largest_cell(plate) * np.sqrt(2)
+    inside = np.flatnonzero(np.minimum(from_hole, from_sides) > plate.margin.max() + largest_cell(plate) * np.sqrt(2))
     assert set(inside) <= set(found.point)
 
 
@@ -90,7 +88,7 @@ def normals_up(problem):
     return normals(problem.cells.nominal, problem.cells.outward)[0].reshape(-1, 3)[:, 2]
 
 
-def longer_cell_side(problem):
+def largest_cell(problem):
     """The longer side of a cell in mm."""
     return float((problem.lattices.step * np.linalg.norm(problem.cells.nominal.tangents[:, 0], axis=2)).max()
                  / np.sqrt(problem.cells.inside.shape[1]))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.machinery
 import importlib.util
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -27,7 +28,13 @@ def is_foreign(root: ElementTree.Element) -> bool:
     modules = {element.get("type", "").partition("::")[0] for element in root.iter("Object")}
     if any(_elsewhere(module) for module in modules if module):
         raise ValueError("an object is of a type that is not FreeCAD's")
-    return any(True for _ in root.iter("Python")) or any(link.get("file") for link in root.iter("XLink"))
+    return any(True for _ in root.iter("Python")) or any(True for _ in _outward_links(root))
+
+
+def linking_elsewhere(root: ElementTree.Element) -> set[str]:
+    """Names of the objects that a document's text links to other files."""
+    return {item.get("name", "") for item in root.iterfind("ObjectData/Object")
+            if any(True for _ in _outward_links(item))}
 
 
 def copy(path: Path, root: ElementTree.Element, folder: Path) -> Path:
@@ -40,16 +47,19 @@ def copy(path: Path, root: ElementTree.Element, folder: Path) -> Path:
     for python in root.iter("Python"):
         python.attrib.clear()
         python.set("value", "")
-    for link in root.iter("XLink"):
-        if link.get("file"):
-            link.attrib.clear()
-            link.attrib.update({"file": "", "stamp": "", "name": ""})
+    for link in _outward_links(root):
+        link.attrib.clear()
+        link.attrib.update({"file": "", "stamp": "", "name": ""})
     result = folder / path.name
     with zipfile.ZipFile(path) as source, zipfile.ZipFile(result, "w") as target:
         for entry in source.infolist():
             text = ElementTree.tostring(root, "utf-8") if entry.filename == _TEXT else source.read(entry)
             target.writestr(entry, text)
     return result
+
+
+def _outward_links(element: ElementTree.Element) -> Iterator[ElementTree.Element]:
+    return (link for link in element.iter("XLink") if link.get("file"))
 
 
 def _elsewhere(module: str) -> bool:

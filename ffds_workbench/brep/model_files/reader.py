@@ -84,8 +84,9 @@ def _read_document(path: Path, label: str | None) -> FileContent:
 
     try:
         root = _checked_archive(path)
+        elsewhere = harmless_document.linking_elsewhere(root)
         with _opened(path, root) as document:
-            item = _pick(path, document, label)
+            item = _pick(path, document, label, elsewhere)
             colours = document_colours.read(path, item.Name)
             return FileContent(placed_shape(item), item.Label, Decoration(colours=colours))
     except _DAMAGED as error:
@@ -141,16 +142,20 @@ def outer_placement(item: Any) -> FreeCAD.Placement:
     return holder.getGlobalPlacement() if holder is not None else FreeCAD.Placement()
 
 
-def _pick(path: Path, document: Any, label: str | None) -> Any:
-    """The object that is asked for, or the only one that stands for itself."""
+def _pick(path: Path, document: Any, label: str | None, elsewhere: set[str]) -> Any:
+    """The object that is asked for, or the only one that stands for itself; ``elsewhere`` names what links to other
+    files."""
+    empty = [item for item in document.Objects
+             if item.Name in elsewhere and getattr(item, "LinkedObject", item) is None]
     candidates = [item for item in document.Objects if hasattr(item, "Shape") and item.Shape.Faces]
     if label is not None:
         named = [item for item in candidates if label in (item.Label, item.Name)]
         if not named:
+            _refuse_links(path, [item for item in empty if label in (item.Label, item.Name)])
             known = ", ".join(f"'{item.Label}'" for item in candidates) or "none"
             raise InputError(f"{path} has no object '{label}' with faces; it has {known}.")
         return named[0]
-    _check_links(path, document)
+    _refuse_links(path, empty)
     whole = [item for item in candidates if not any(hasattr(user, "Shape") for user in item.InList)]
     if not whole:
         raise InputError(f"{path} has no object with faces.")
@@ -160,9 +165,8 @@ def _pick(path: Path, document: Any, label: str | None) -> Any:
     return whole[0]
 
 
-def _check_links(path: Path, document: FreeCAD.Document) -> None:
-    """Refuse a document of which a part lies in another one that is not there (InputError)."""
-    empty = [item.Label for item in document.Objects if item.TypeId == "App::Link" and item.LinkedObject is None]
-    if empty:
-        raise InputError(f"{path} links to a document that is missing or damaged, in '{empty[0]}': put it where it "
-                         f"was, or pick another object with --object.")
+def _refuse_links(path: Path, links: list[Any]) -> None:
+    """Say of links whose part lies in another file that they are not followed (InputError)."""
+    if links:
+        raise InputError(f"{path} links to another file in '{links[0].Label}', and such links are not followed: copy "
+                         f"the linked part into this document, or pick another object with --object.")

@@ -99,9 +99,10 @@ class FrontCholesky:
                     rest[front.parent] = _square(above.shape[1] - k, memory)
                     rest[front.parent][:] = 0.0
                 own, beyond = layout.parent_runs[number]
-                _add(above[:, :k], left, own, own)
-                _add(above[:, k:], left, own, beyond)
-                _add(rest[front.parent], left, beyond, beyond)
+                with np.errstate(over="ignore", invalid="ignore"):  # fresh memory lies below the diagonals
+                    _add(above[:, :k], left, own, own)
+                    _add(above[:, k:], left, own, beyond)
+                    _add(rest[front.parent], left, beyond, beyond)
                 memory.append(np.asarray(left.base))
             self.own.append(factor)
             self.border.append(border)
@@ -178,7 +179,7 @@ def _square(size: int, memory: list[Array]) -> Array:
 
 
 def _add(target: Array, left: Array, rows: _Runs, columns: _Runs) -> None:
-    """Add a matrix to another piece by piece, nothing below the diagonal."""
+    """Add a matrix to another piece by piece; what comes to lie below the diagonal is of no use."""
     for number, (here, there) in enumerate(rows):
         for other_here, other_there in columns[number if columns is rows else 0 :]:
             target[there, other_there] += left[here, other_here]
