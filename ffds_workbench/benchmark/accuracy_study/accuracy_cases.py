@@ -110,19 +110,22 @@ def _independent(folder: Path, out: Path) -> dict[str, Any] | None:
 def judge_by_truth(result: api.Result, truth: Mapping[str, Array]) -> dict[str, Any]:
     """Figures from the truth's points and the as-built faces, and how many points the bands hold."""
     part = workpiece.read(result.nominal.shape)
-    visible, deviation, band, flag = [], [], [], []
+    visible, deviation, banded, band, flag = [], [], [], [], []
     rng = np.random.default_rng(0)
     for index, (built, found) in enumerate(zip(result.shape.Faces, result.joint.faces, strict=True)):
         own = np.flatnonzero(truth["face"] == index)
         own = rng.permutation(own)[:_JUDGED]
         deviation.append(np.abs(project(built_geometry(part, index, built).surface, truth["warped"][own]).height))
         visible.append(truth["visible"][own])
-        nearest = cKDTree(part.geometry(index).surface(found.uv)).query(truth["nominal"][own])[1]
-        band.append(found.bands[nearest])
-        flag.append(found.flags[nearest])
+        if len(found.uv):  # a ring round a hole may hold none of the places that have bands
+            nearest = cKDTree(part.geometry(index).surface(found.uv)).query(truth["nominal"][own])[1]
+            banded.append(deviation[-1])
+            band.append(found.bands[nearest])
+            flag.append(found.flags[nearest])
     seen, off = np.concatenate(visible), np.concatenate(deviation)
     edges = _edges(result, truth)
-    bands = {"bands": _held(off, np.concatenate(band), np.concatenate(flag)), "edge_bands": _held(*edges)}
+    bands = {"bands": _held(np.concatenate(banded), np.concatenate(band), np.concatenate(flag)),
+             "edge_bands": _held(*edges)}
     gap = result.certificate
     judged = {"judge": "truth", "visible": figures(off[seen]), "hidden": figures(off[~seen]),
               "edges": figures(edges[0]), "thickness": None, "gap": gap.excess_gap,
