@@ -179,3 +179,17 @@ def test_an_edge_of_no_face_stays_and_is_named(scan):
     assert result.report["sheet"]["loose"] == ["Edge13"] and "Edge13 bounds no face" in result.table()
     assert result.report["edges"][12]["flag"] == "nominal"
     assert result.shape.Edges[12].CenterOfMass == plate.Edges[12].CenterOfMass
+
+
+@pytest.mark.parametrize("shift, sentence", [(0.0, ""), (15.0, "mm off the part: align it")])
+def test_a_body_of_revolution_is_not_off_itself_however_it_is_turned(shift, sentence):
+    """Its pose is found anywhere about its axis; what counts is how far the scan lies off its surface."""
+    shape = Part.makeCylinder(20, 40).fuse(Part.makeCylinder(10, 60)).removeSplitter()
+    corners, triangles = shape.tessellate(0.01)
+    corner = np.array([tuple(corners[k]) for triangle in triangles for k in triangle]).reshape(-1, 3, 3)
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    random = np.random.default_rng(1)
+    chosen = corner[random.choice(len(area), 20000, p=area / area.sum())]
+    points = np.einsum("nk,nkx->nx", random.dirichlet(np.ones(3), 20000), chosen) + random.normal(0, NOISE, (20000, 3))
+    text = other_part.far_scan_refusal(workpiece.read(shape), PointCloud(points + [shift, 0, 0]), 4.0)
+    assert bool(text) == bool(sentence) and sentence in text
