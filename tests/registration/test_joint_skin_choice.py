@@ -64,12 +64,12 @@ def test_skins_and_walls_of_a_plate_are_pieces_of_their_own():
 def chosen(monkeypatch, first, second, told=False):
     """Which of two fits is chosen, 0 or 1, and how far it says the whole may be off; evidence as cost, points matched,
     points on walls, and movement in mm."""
-    fits = [State(np.zeros((1, 3)), reach, None, None) for reach in (1.0, 2.0)]
-    evidence = dict(zip((1.0, 2.0), (first, second), strict=True))
-    monkeypatch.setattr(skin_choice, "_evidence", lambda problem, state: evidence[state.reach])
+    fits = [State(np.zeros((1, 3)), None, None, iterations=number) for number in (0, 1)]
+    evidence = first, second
+    monkeypatch.setattr(skin_choice, "_evidence", lambda problem, state: evidence[state.iterations])
     pairs = SimpleNamespace(solid_thickness=(0.0, THICKNESS))
     found = choose_skin(SimpleNamespace(couplings=SimpleNamespace(pairs=pairs)), fits, told)
-    return int(found.reach) - 1, found.unsure
+    return found.iterations, found.unsure
 
 
 EVEN = (100.0, 1000.0, 400, 1.0)
@@ -77,7 +77,7 @@ EVEN = (100.0, 1000.0, 400, 1.0)
 
 
 def test_a_single_fit_is_the_answer():
-    fit = State(np.zeros((1, 3)), 1.0, None, None)
+    fit = State(np.zeros((1, 3)), None, None)
     assert choose_skin(None, [fit], False) is fit
 
 

@@ -78,8 +78,8 @@ def refuse_unsound(problem: Problem, state: State) -> None:
 def _refuse_off_scan(problem: Problem, state: State) -> None:
     """Raise RefusedError where a face is covered by scan points and lies far off them: they were not followed."""
     noise = problem.lengths.noise
-    before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), state.reach).height))
-    found = _all_matched(problem, state.control_points, state.reach)
+    before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), problem.lengths.reach).height))
+    found = _all_matched(problem, state.control_points, problem.lengths.reach)
     face = problem.face_of_cell[found.cell]
     expected = np.bincount(problem.face_of_cell, problem.area.ravel()) * problem.statistics.density
     enough = np.maximum(_LEAST_JUDGED_COVER * expected * len(problem.sample) / len(problem.scan), _LEAST_JUDGED_POINTS)

@@ -50,7 +50,6 @@ class Problem:
     sides : where the faces lie at their edges
     lengths : of the solve
     free_motions : of solids in themselves, of which no scan tells
-    distance_to_nominal : (n,) of the points of the sample, in mm; infinite beyond the size of the part
     margin : (spans,) distance from the border that scan points must keep, in mm
     body_size : (spans,) size in mm of the solid that a span belongs to
     cell_side : usual length in mm of the sides of the cells
@@ -73,7 +72,6 @@ class Problem:
     margin: Array
     lengths: Lengths
     free_motions: FreeMotions
-    distance_to_nominal: Array
     body_size: Array
     cell_side: float
     sample_normals: Array | None = None
@@ -141,7 +139,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature,
                        sizes, settings.thickness_change)
-    lengths, apart = find_lengths(lattices, cells, sample, statistics)
+    lengths = find_lengths(lattices, cells, sample, statistics)
     side = cell_sides(lattices, cells)
     most = np.maximum(_TRIM_MARGIN * side, lengths.noise)
     distance = distance_to_trims(part.faces, lattices, cells, most, _FARTHEST_IN_MARGINS * most)
@@ -155,7 +153,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
     return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
                    pattern, constant_rows(pattern, stiffness, couplings.scalar, others), sides, margin, lengths,
-                   find_free_motions(part, lattices, cells, area, couplings.scalar), apart, body_size,
+                   find_free_motions(part, lattices, cells, area, couplings.scalar), body_size,
                    float(np.median(side[lattices.face_of_span])),
                    None if scan_normals is None else scan_normals[pick])
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ...registration.arrays import Array
+from ...registration.robust_weights import robust_sigma
 from . import library
 
 _SAMPLE = 20000
@@ -76,7 +77,7 @@ def _fitted(points: Array, normal: Array, height: float, guess: float) -> TableP
         normal = np.linalg.svd(near - centre, full_matrices=False)[2][2]
         heights = (points - centre) @ normal
         inside = np.abs(heights[np.abs(heights) < _THINNEST * noise])
-        noise = max(1.4826 * float(np.median(inside)), 1e-9 * guess)
+        noise = max(robust_sigma(inside), 1e-9 * guess)
     if (heights > guess).sum() < (heights < -guess).sum():
         normal, heights = -normal, -heights
     return TablePlane(normal, float(centre @ normal), _reach(-heights, noise), _reach(heights, noise))

@@ -30,9 +30,8 @@ _PLANES_FAIL = 2.0
 """Noise about planes through neighbours over that about the nominal part from which the planes saw bends (unit)."""
 
 
-def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics: ScanStatistics
-                 ) -> tuple[Lengths, Array]:
-    """The lengths, and how far points of the scan lie from the nominal part, infinite beyond its size: (n,).
+def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics: ScanStatistics) -> Lengths:
+    """What has a unit of length in one solve and is no property of the shape.
 
     Parameters
     ----------
@@ -48,7 +47,7 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
     position = cells.nominal.position[cells.inside]
     size = 2 * float(np.linalg.norm(position - position.mean(axis=0), axis=1).max())
     apart = np.asarray(cKDTree(position).query(sample, distance_upper_bound=size, workers=-1)[0])
-    typical = float(np.sort(apart)[int(_TYPICAL * (len(apart) - 1))])
+    typical = quantile(apart, _TYPICAL)
     if not np.isfinite(typical):
         raise RefusedError("The scan does not overlap the part: most of it is farther away than the part is large; "
                            "check the unit of the scan and align it first.")
@@ -62,7 +61,7 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
     noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)
     moved = quantile(np.abs(found.height), _MOST_POINTS) if len(found.point) else typical
     return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution,
-                   max(_REACH * moved, _REACH_IN_NOISES * noise, _LEAST_REACH * size)), apart
+                   max(_REACH * moved, _REACH_IN_NOISES * noise, _LEAST_REACH * size))
 
 
 def _noise_beside(points: Array, found: Correspondence, face: Index) -> float:

@@ -78,7 +78,6 @@ class State:
     Attributes
     ----------
     control_points : (controls, 3) displacement in mm
-    reach : largest gate in mm, from how far the scan lies from the nominal part
     values : of the last iteration
     cache : what the next one uses again
     outward : (n, 3) outward normals of the sample's points, zero where unknown; None where it does not matter
@@ -90,7 +89,6 @@ class State:
     """
 
     control_points: Array
-    reach: float
     values: CellHeights
     cache: StepCache
     outward: Array | None = None
@@ -106,5 +104,5 @@ def start(problem: Problem) -> State:
     faces, lengths = len(problem.part.faces), problem.lengths
     still = np.zeros((problem.lattices.count, 3))
     scatter = Scatter(np.full(faces, lengths.noise), np.zeros(faces), np.full(faces, lengths.start))
-    return State(still, lengths.reach, no_heights(problem.distance.size, scatter),
+    return State(still, no_heights(problem.distance.size, scatter),
                  StepCache(ShapeMatrices.of(problem, still)))
