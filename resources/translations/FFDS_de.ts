@@ -196,6 +196,30 @@
       <translation>„{name}“ ist keine Fläche, die man festhalten kann: Schreiben Sie Namen wie Face1, Face4.</translation>
     </message>
     <message>
+      <source>&lt;b&gt;Click the upright face&lt;/b&gt; in the 3D view, through the scan that lies on it: FFDS takes the face that the scan shows. Ctrl adds more faces.</source>
+      <translation>&lt;b&gt;Die aufrechte Fläche anklicken&lt;/b&gt;, in der 3D-Ansicht durch den Scan hindurch, der auf ihr liegt: FFDS nimmt die Fläche, die der Scan zeigt. Strg nimmt weitere hinzu.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Deform it&lt;/b&gt;: the preview follows every setting. Press OK when you like it; or deform the whole part, where faces that the scan does not see are carried along.</source>
+      <translation>&lt;b&gt;Anpassen&lt;/b&gt;: Die Vorschau folgt jeder Einstellung. OK, wenn sie gefällt; oder das ganze Teil anpassen, wobei Flächen, die der Scan nicht sieht, mitgehen.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Go on&lt;/b&gt;: find weld seams, or write the as-built part. Everything is one undo step: Ctrl+Z.</source>
+      <translation>&lt;b&gt;Weitermachen&lt;/b&gt;: Schweißnähte finden oder das Ist-Teil schreiben. Alles ist ein Schritt zum Rückgängigmachen: Strg+Z.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Load the example&lt;/b&gt;: a sheet-metal bracket, and a scan of it as it came out of the press, in blue.</source>
+      <translation>&lt;b&gt;Das Beispiel laden&lt;/b&gt;: ein Blechwinkel und in Blau ein Scan davon, wie er aus der Presse kam.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Look at the deviation&lt;/b&gt;, before and after, and read values under the cursor.</source>
+      <translation>&lt;b&gt;Die Abweichung ansehen&lt;/b&gt;, vorher und nachher, und Werte unter dem Mauszeiger ablesen.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Read the result&lt;/b&gt;: a verdict in a sentence, a table of the faces, and what to look at. A click on a row shows its face.</source>
+      <translation>&lt;b&gt;Das Ergebnis lesen&lt;/b&gt;: ein Urteil in einem Satz, eine Tabelle der Flächen und worauf zu achten ist. Ein Klick auf eine Zeile zeigt ihre Fläche.</translation>
+    </message>
+    <message>
       <source>&lt;b&gt;{value} mm&lt;/b&gt; at {place}</source>
       <translation>&lt;b&gt;{value} mm&lt;/b&gt; bei {place}</translation>
     </message>
@@ -236,6 +260,10 @@
       <translation>Alle Flächen gemeinsam; die der Scan nicht sieht, gehen mit</translation>
     </message>
     <message>
+      <source>All faces, edges and corners are those of the nominal part.</source>
+      <translation>Alle Flächen, Kanten und Ecken sind die des Soll-Teils.</translation>
+    </message>
+    <message>
       <source>All points are picked: press OK.</source>
       <translation>Alle Punkte sind gewählt: Drücken Sie OK.</translation>
     </message>
@@ -260,8 +288,16 @@
       <translation>Vor oder nach der Verformung</translation>
     </message>
     <message>
+      <source>By box</source>
+      <translation>Per Rahmen</translation>
+    </message>
+    <message>
       <source>Cancel</source>
       <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Check for Boolean operations: {verdict}.</source>
+      <translation>Prüfung für Boolesche Operationen: {verdict}.</translation>
     </message>
     <message>
       <source>Colours on</source>
@@ -316,6 +352,10 @@
       <translation>Abstände des Scans von den Flächen, und der Anteil der Flächen, den er zeigt</translation>
     </message>
     <message>
+      <source>Draw a box in the 3D view: the faces in it that the scan shows are picked</source>
+      <translation>Einen Rahmen in der 3D-Ansicht aufziehen: Die Flächen darin, die der Scan zeigt, werden gewählt</translation>
+    </message>
+    <message>
       <source>Export as-built part</source>
       <translation>Ist-Teil exportieren</translation>
     </message>
@@ -324,8 +364,16 @@
       <translation>Roboterprogramm exportieren</translation>
     </message>
     <message>
+      <source>Export…</source>
+      <translation>Exportieren …</translation>
+    </message>
+    <message>
       <source>FFD by Hsu</source>
       <translation>FFD nach Hsu</translation>
+    </message>
+    <message>
+      <source>Face</source>
+      <translation>Fläche</translation>
     </message>
     <message>
       <source>Faces of two parts are selected: choose those of one.</source>
@@ -346,6 +394,14 @@
     <message>
       <source>Fine alignment from there</source>
       <translation>Von dort fein ausrichten</translation>
+    </message>
+    <message>
+      <source>Finish or close the open task first.</source>
+      <translation>Zuerst die offene Aufgabe beenden oder schließen.</translation>
+    </message>
+    <message>
+      <source>First steps with FFDS</source>
+      <translation>Erste Schritte mit FFDS</translation>
     </message>
     <message>
       <source>For the published methods, on each face</source>
@@ -376,6 +432,10 @@
       <translation>Scan importieren</translation>
     </message>
     <message>
+      <source>Import scan…</source>
+      <translation>Scan importieren …</translation>
+    </message>
+    <message>
       <source>In which unit is the scan?</source>
       <translation>In welcher Einheit ist der Scan?</translation>
     </message>
@@ -398,6 +458,10 @@
     <message>
       <source>May stretch</source>
       <translation>Darf sich dehnen</translation>
+    </message>
+    <message>
+      <source>Mean deviation of each face in mm, half the width of its 95 % band (±), how much of it the scan shows, and where its shape comes from. A click shows the face.</source>
+      <translation>Mittlere Abweichung jeder Fläche in mm, die halbe Breite ihres 95-%-Bandes (±), wie viel von ihr der Scan zeigt und woher ihre Form kommt. Ein Klick zeigt die Fläche.</translation>
     </message>
     <message>
       <source>Mean distance of the points</source>
@@ -432,6 +496,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Nominal</source>
       <translation>Soll</translation>
+    </message>
+    <message>
+      <source>Open a document first.</source>
+      <translation>Zuerst ein Dokument öffnen.</translation>
     </message>
     <message>
       <source>Or leave out the fine alignment.</source>
@@ -562,12 +630,48 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Startwert</translation>
     </message>
     <message>
+      <source>Select faces of one part, a scan, or nothing at all.</source>
+      <translation>Flächen eines Teils, einen Scan oder gar nichts auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one as-built part first.</source>
+      <translation>Zuerst ein Ist-Teil auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part and one scan first.</source>
+      <translation>Zuerst ein Teil und einen Scan auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part first, and the scan where the document holds several.</source>
+      <translation>Zuerst ein Teil auswählen, und den Scan, wo das Dokument mehrere hat.</translation>
+    </message>
+    <message>
+      <source>Select one part first.</source>
+      <translation>Zuerst ein Teil auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part, or edges of one, first.</source>
+      <translation>Zuerst ein Teil oder Kanten eines Teils auswählen.</translation>
+    </message>
+    <message>
+      <source>Select seams first: Find weld seams makes them.</source>
+      <translation>Zuerst Nähte auswählen: Schweißnähte finden legt sie an.</translation>
+    </message>
+    <message>
       <source>Sensor sees</source>
       <translation>Sensor sieht</translation>
     </message>
     <message>
+      <source>Settings…</source>
+      <translation>Einstellungen …</translation>
+    </message>
+    <message>
       <source>Sheet</source>
       <translation>Blech</translation>
+    </message>
+    <message>
+      <source>Show</source>
+      <translation>Zeigen</translation>
     </message>
     <message>
       <source>Simulate a scan</source>
@@ -608,6 +712,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points.</source>
       <translation>Die Ausrichtung ist nicht sicher: {reason}. Sehen Sie sich den Scan an, oder machen Sie sie rückgängig und richten Sie ihn an drei Punkten aus.</translation>
+    </message>
+    <message>
+      <source>The check for Boolean operations goes on in the background.</source>
+      <translation>Die Prüfung für Boolesche Operationen läuft im Hintergrund weiter.</translation>
     </message>
     <message>
       <source>The colour scale ends here, on both sides</source>
@@ -670,6 +778,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Universal-Robots-Programm (*.script)</translation>
     </message>
     <message>
+      <source>Weld seams…</source>
+      <translation>Schweißnähte …</translation>
+    </message>
+    <message>
       <source>What carries the colours</source>
       <translation>Was die Farben trägt</translation>
     </message>
@@ -718,6 +830,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>blau</translation>
     </message>
     <message>
+      <source>bridged</source>
+      <translation>überbrückt</translation>
+    </message>
+    <message>
+      <source>carried</source>
+      <translation>mitgeführt</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>aus</translation>
+    </message>
+    <message>
       <source>in {direction}</source>
       <translation>in {direction}</translation>
     </message>
@@ -734,6 +858,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>dort kein Scan</translation>
     </message>
     <message>
+      <source>nominal</source>
+      <translation>Soll</translation>
+    </message>
+    <message>
       <source>nothing to compare</source>
       <translation>nichts zu vergleichen</translation>
     </message>
@@ -744,6 +872,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>red</source>
       <translation>rot</translation>
+    </message>
+    <message>
+      <source>scan</source>
+      <translation>Scan</translation>
+    </message>
+    <message>
+      <source>seen</source>
+      <translation>gesehen</translation>
     </message>
     <message>
       <source>the part</source>
@@ -796,6 +932,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{unit}: it is {size} mm across</source>
       <translation>{unit}: er misst {size} mm</translation>
+    </message>
+    <message>
+      <source>±</source>
+      <translation>±</translation>
     </message>
   </context>
   <context>
@@ -919,6 +1059,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>FFDS_FirstSteps</name>
+    <message>
+      <source>A page that walks through the example: from the part and its scan to the as-built model</source>
+      <translation>Eine Seite, die durch das Beispiel führt: vom Teil und seinem Scan zum Ist-Modell</translation>
+    </message>
+    <message>
+      <source>First steps</source>
+      <translation>Erste Schritte</translation>
+    </message>
+    <message>
+      <source>Walks through the example in six steps, from the part and its scan to the as-built model and its deviation. Each step has a button that does it.</source>
+      <translation>Führt in sechs Schritten durch das Beispiel, vom Teil und seinem Scan zum Ist-Modell und seiner Abweichung. Jeder Schritt hat einen Knopf, der ihn tut.</translation>
+    </message>
+  </context>
+  <context>
     <name>FFDS_ImportScan</name>
     <message>
       <source>Import a scan as a point cloud: PLY, PCD, XYZ, ASC, TXT, CSV, PTS, E57 or STL; several files are fused</source>
@@ -991,6 +1146,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Show control lattice</source>
       <translation>Kontrollgitter zeigen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_ShowResult</name>
+    <message>
+      <source>Says in a sentence how well the selected as-built part fits its scan, with a table of its faces: before, after, band, what each rests on. A click on a row shows the face.</source>
+      <translation>Sagt in einem Satz, wie gut das gewählte Ist-Teil zu seinem Scan passt, mit einer Tabelle seiner Flächen: vorher, nachher, Band, worauf jede beruht. Ein Klick auf eine Zeile zeigt die Fläche.</translation>
+    </message>
+    <message>
+      <source>Show result</source>
+      <translation>Ergebnis zeigen</translation>
+    </message>
+    <message>
+      <source>The verdict on the selected as-built part, face by face, with what to look at</source>
+      <translation>Das Urteil über das gewählte Ist-Teil, Fläche für Fläche, und worauf zu achten ist</translation>
     </message>
   </context>
   <context>
@@ -1254,6 +1424,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Face{0} würde an Edge{1} abreißen, wo der Nachbar stehen bleibt.</translation>
     </message>
     <message>
+      <source>Farther from the scan than its noise explains: {0}. Look at the deviation.</source>
+      <translation>Weiter vom Scan entfernt, als dessen Rauschen erklärt: {0}. Die Abweichung ansehen.</translation>
+    </message>
+    <message>
       <source>Finding and measuring the seams</source>
       <translation>Die Nähte werden gesucht und gemessen</translation>
     </message>
@@ -1310,6 +1484,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Kein Teil liegt auf höchstens {0} mm an einem anderen{1}.</translation>
     </message>
     <message>
+      <source>No point of the scan lies on the as-built part.</source>
+      <translation>Kein Punkt des Scans liegt auf dem Ist-Teil.</translation>
+    </message>
+    <message>
       <source>No pose of the path is near the nominal model: is the path in mm, and in the model's frame?</source>
       <translation>Keine Lage der Bahn ist nahe am Nennmodell: Ist die Bahn in mm und im Koordinatensystem des Modells?</translation>
     </message>
@@ -1344,6 +1522,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Noise, correlation, holes, edge band and pose error of a scan cannot be negative.</source>
       <translation>Rauschen, Korrelation, Löcher, Randstreifen und Lagefehler eines Scans können nicht negativ sein.</translation>
+    </message>
+    <message>
+      <source>Not seen by the scan, and carried along by what is: {0}.</source>
+      <translation>Vom Scan nicht gesehen und von dem mitgeführt, was er sieht: {0}.</translation>
     </message>
     <message>
       <source>Nothing refers to {0}: there is nothing to re-point.</source>
@@ -1412,6 +1594,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The approach must lie between 0 and 2000 mm, not {0}.</source>
       <translation>Der Anfahrweg muss zwischen 0 und 2000 mm liegen, nicht bei {0}.</translation>
+    </message>
+    <message>
+      <source>The as-built part fits the scan within its noise: {0} mm from it on average, {1} mm before.</source>
+      <translation>Das Ist-Teil passt im Rahmen des Rauschens zum Scan: im Mittel {0} mm entfernt, vorher {1} mm.</translation>
+    </message>
+    <message>
+      <source>The as-built part lies {0} mm from the scan on average, {1} mm before: that is more than noise explains.</source>
+      <translation>Das Ist-Teil liegt im Mittel {0} mm vom Scan entfernt, vorher {1} mm: Das ist mehr, als das Rauschen erklärt.</translation>
+    </message>
+    <message>
+      <source>The check for Boolean operations finds {0} errors: cutting or joining this part may fail.</source>
+      <translation>Die Prüfung für Boolesche Operationen findet {0} Fehler: Schneiden oder Verbinden dieses Teils kann scheitern.</translation>
     </message>
     <message>
       <source>The check for Boolean operations reports {0} errors, {1} before.</source>
@@ -1692,6 +1886,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan points near {0} do not form its surface: only {1} of them agree on one; leave the face out, or check the alignment of the scan.</source>
       <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
+    </message>
+    <message>
+      <source>The scan shows less than half of {0}: scan more of it.</source>
+      <translation>Der Scan zeigt weniger als die Hälfte von {0}: mehr davon scannen.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
@@ -2253,8 +2451,48 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Workbench</name>
     <message>
+      <source>Deform</source>
+      <translation>Anpassen</translation>
+    </message>
+    <message>
       <source>Deform a CAD model to a scan; its topology stays</source>
       <translation>Ein CAD-Modell an einen Scan anpassen; seine Topologie bleibt</translation>
+    </message>
+    <message>
+      <source>FFDS Deform</source>
+      <translation>FFDS Anpassen</translation>
+    </message>
+    <message>
+      <source>FFDS Inspect</source>
+      <translation>FFDS Prüfen</translation>
+    </message>
+    <message>
+      <source>FFDS Learn</source>
+      <translation>FFDS Lernen</translation>
+    </message>
+    <message>
+      <source>FFDS Scan</source>
+      <translation>FFDS Scan</translation>
+    </message>
+    <message>
+      <source>FFDS Weld</source>
+      <translation>FFDS Schweißen</translation>
+    </message>
+    <message>
+      <source>Inspect</source>
+      <translation>Prüfen</translation>
+    </message>
+    <message>
+      <source>Learn</source>
+      <translation>Lernen</translation>
+    </message>
+    <message>
+      <source>Scan</source>
+      <translation>Scan</translation>
+    </message>
+    <message>
+      <source>Weld</source>
+      <translation>Schweißen</translation>
     </message>
   </context>
 </TS>

@@ -20,6 +20,7 @@ from .. import running
 from ..preferences import preferences
 from ..preview.face_on_scan import corner_values, corners, surface_grid
 from ..qt import QtWidgets, number_of
+from ..selection import parts_shown, scans_of
 from ..translating import tr
 from ..view3d.colours import good_limit, packed_colours
 from ..view3d.overlay import Overlay, foremost, lines_node, mesh_node, points_node
@@ -28,6 +29,9 @@ from .closing import Closing
 from .legend import Legend
 
 Array = NDArray[np.float64]
+
+_PART_TRANSPARENCY = 0.6
+"""Of the parts while the scan carries the colours."""
 
 
 def open_panel(part: Any, scan: Any) -> None:
@@ -79,6 +83,7 @@ class DeviationPanel:
         self._document = scan.Document.Name
         self._view = Gui.getDocument(self._document).ActiveView
         self._overlay = Overlay(self._document)
+        self._shown = [*parts_shown(scan.Document), *scans_of(scan.Document)]
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
         Gui.Selection.clearSelection()  # what is selected shines through, in a green that would read as good
         self._closing = Closing(self._document, lambda: None, self._close)
@@ -98,6 +103,10 @@ class DeviationPanel:
                      for points, triangles, means in self._coloured_faces(item)]
             nodes.append(lines_node(list(edge_points(item.model.shape, 40))))
         self._overlay.show(nodes)
+        self._overlay.plain()
+        self._overlay.pick_through(self._shown)  # what the mouse points at would turn yellow, face by face
+        if self._on.currentData() == "scan":  # else points inside the material are hidden, the others are not
+            self._overlay.fade([item for item in self._shown if item is not self._scan], _PART_TRANSPARENCY)
         self._overlay.cover(self._scan, *[self._part] if self._on.currentData() == "part" else [])
         self._legend.show_deviations(values, limit, tolerance)
         self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
