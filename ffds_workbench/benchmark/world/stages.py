@@ -56,7 +56,8 @@ def register(folder: Path) -> None:
     api.write(result, folder / built)
     seconds, used = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_SELF)
     (folder / REGISTERED).write_text(json.dumps(
-        {"built": built, "seconds": seconds, "processor": used.ru_utime + used.ru_stime, "megabytes": used.ru_maxrss / 1024}))
+        {"built": built, "seconds": seconds, "processor": used.ru_utime + used.ru_stime,
+         "megabytes": used.ru_maxrss / 1024}))
     np.savez_compressed(folder / "bands.npz", **_bands(result, _truth(folder)))
 
 
