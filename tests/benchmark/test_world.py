@@ -104,6 +104,17 @@ def test_slivers_are_divided_into_few_triangles():
     np.testing.assert_allclose(np.abs(area).sum(), 50.0, rtol=1e-12)
 
 
+def test_small_tori_are_meshed_at_once():
+    """A rod end of 6 mm: asked for a thousandth of a millimetre, OCCT made hundreds of thousands of triangles of it."""
+    torus = Part.makeTorus(2.7, 0.125)
+    size = torus.BoundBox.DiagonalLength
+    corners = exact_samples._mesh(torus.Faces[0], exact_samples._sag(size))
+    triangles = exact_samples.Triangles(corners, np.zeros(len(corners), int))
+    assert len(corners) < 50_000
+    np.testing.assert_allclose(0.5 * np.linalg.norm(triangles.area_vectors, axis=1).sum(),
+                               4 * np.pi**2 * 2.7 * 0.125, rtol=0.1)  # of a section of at least seven sides
+
+
 def test_other_numbers_are_found():
     box = Part.makeBox(10, 20, 30)
     assert numbers.changes(box, box.copy()) == []
