@@ -14,9 +14,9 @@ from scipy.spatial import cKDTree
 from ...registration.arrays import Array
 
 _SAG, _FINEST = 2e-4, 0.015
-"""Largest distance of the mesh from the faces, of the diagonal of the part's box, and in mm the least that is asked for:
-below some 0.01 mm OCCT's mesher divides a small torus into hundreds of thousands of triangles, at any size of the part.
-The mesh says where to draw points and what hides what, not where a point lies."""
+"""Largest distance of the mesh from the faces, of the diagonal of the part's box, and the least in mm: below some
+0.01 mm OCCT's mesher makes hundreds of thousands of triangles of a small torus. The mesh says where to draw points and
+what hides what, not where a point lies."""
 _LONGEST = 1 / 120
 """Longest side of a triangle, of the same diagonal: what is flat may be bent afterwards."""
 
