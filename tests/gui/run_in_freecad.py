@@ -6,7 +6,7 @@ import traceback
 from pathlib import Path
 
 import pytest
-from PySide2 import QtCore
+from PySide import QtCore
 
 
 def run() -> None:

@@ -7,13 +7,16 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands import COMMANDS
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.commands.load_example import LoadExample
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects import scans
+
+QtTest = qt("QtTest")
 
 THICKNESS, NOISE = 3.0, 0.1
 UPRIGHT = (25.0, 0.0, 20.0)
