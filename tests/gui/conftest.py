@@ -148,7 +148,8 @@ class Hands:
     def pick(self, point: tuple[float, float, float], modifier: int = QtCore.Qt.NoModifier) -> None:
         """Click in the 3D view where a point of the document is seen."""
         view = Gui.ActiveDocument.ActiveView
-        viewport = view.graphicsView().viewport()
+        window = view.graphicsView()  # held: in Qt 6 its viewport goes with the name of the window
+        viewport = window.viewport()
         (x, y), (width, height) = view.getPointOnScreen(FreeCAD.Vector(*point)), view.getSize()
         place = QtCore.QPoint(round((x + 0.5) / width * viewport.width()),
                               round((1 - (y + 0.5) / height) * viewport.height()))  # the view's pixels may be smaller

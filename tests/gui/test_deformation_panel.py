@@ -111,8 +111,9 @@ def test_enter_ends_the_editing_of_a_number_and_esc_closes_the_panel_from_anywhe
     hands.wait(500)
     assert Gui.Control.activeDialog() and box.value() == 7 and len(plate_document.Objects) == 2
     Gui.getMainWindow().activateWindow()
-    Gui.ActiveDocument.ActiveView.graphicsView().viewport().setFocus()
-    QtTest.QTest.keyClick(Gui.ActiveDocument.ActiveView.graphicsView().viewport(), QtCore.Qt.Key_Escape)
+    window = Gui.ActiveDocument.ActiveView.graphicsView()
+    window.viewport().setFocus()
+    QtTest.QTest.keyClick(window.viewport(), QtCore.Qt.Key_Escape)
     hands.until(lambda: not Gui.Control.activeDialog(), 5)
     assert len(plate_document.Objects) == 2
 

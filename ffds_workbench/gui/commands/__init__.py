@@ -14,12 +14,13 @@ from .export_program import ExportProgram
 from .find_seams import FindSeams
 from .import_scan import ImportScan
 from .load_example import LoadExample
+from .prepare_scan import PrepareScan
 from .repoint_references import RepointReferences
 from .show_deviation import ShowDeviation
 from .show_lattice import ShowLattice
 from .simulate_scan import SimulateScan
 
-GROUPS = ((ImportScan, SimulateScan, AlignScan, AlignByPoints),
+GROUPS = ((ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoints),
           (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
           (ShowDeviation,),
           (FindSeams, ExportProgram, AddTrajectory),
@@ -28,7 +29,7 @@ GROUPS = ((ImportScan, SimulateScan, AlignScan, AlignByPoints),
 COMMANDS = tuple(command for group in GROUPS for command in group)
 TOOLBAR = [name for group in GROUPS for name in (*(command.NAME for command in group), "Separator")][:-1]
 CONTEXT = [command.NAME for command in (
-    DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
+    DeformFaces, DeformWorkpiece, PrepareScan, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
     ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
 
 
