@@ -123,7 +123,8 @@ def _clean(work: _Work, settings: PreparationSettings, progress: Progress) -> No
         progress("Looking for the table")
         plane = table.find_table(work.points)
         if plane is None:
-            work.record("plane", len(work.points), note="no plane was found that the rest stands on")
+            missing = "no plane was found that the rest stands on"
+            work.record("plane", len(work.points), note=missing)
         else:
             up = plane.normal
             work.keep("plane", plane.in_front(work.points), {
