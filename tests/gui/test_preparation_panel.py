@@ -7,7 +7,7 @@ import FreeCADGui as Gui
 import numpy as np
 import pytest
 
-from ffds_workbench.gui.commands.prepare_scan import PrepareScan
+from ffds_workbench.gui.commands.scan.prepare_scan import PrepareScan
 from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.objects import scans
 from ffds_workbench.objects.scans import scan_points

@@ -14,8 +14,8 @@ from .export_program import ExportProgram
 from .find_seams import FindSeams
 from .import_scan import ImportScan
 from .load_example import LoadExample
-from .prepare_scan import PrepareScan
 from .repoint_references import RepointReferences
+from .scan.prepare_scan import PrepareScan
 from .show_deviation import ShowDeviation
 from .show_lattice import ShowLattice
 from .simulate_scan import SimulateScan

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..selection import chosen
-from .command import Command, one_part, one_scan
+from ...selection import chosen
+from ..command import Command, one_part, one_scan
 
 
 class PrepareScan(Command):
@@ -17,6 +17,7 @@ class PrepareScan(Command):
     HELP = ("Select a scan, or several of one part, and the part where the scan is to be cropped to it. Each step "
             "shows what it takes away before anything is changed.")
     KEYS = "F, C"
+    NEEDS = "Select a scan first."
 
     def active(self) -> bool:
         """With scans selected, or one in the document."""
@@ -24,7 +25,7 @@ class PrepareScan(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from ..panels.preparation_panel import open_panel
+        from ...panels.preparation_panel import open_panel
 
         open_panel(_scans(), one_part(chosen()))
 
