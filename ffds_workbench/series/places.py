@@ -24,7 +24,7 @@ _FRACTIONS = np.linspace(0.0, 1.0, EDGE_SAMPLES)
 
 @dataclass(frozen=True)
 class PartPlaces:
-    """SeriesPlaces on the faces and along the edges of a model.
+    """Places on the faces and along the edges of a model.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class PartPlaces:
 
 
 def places_of(part: Workpiece) -> PartPlaces:
-    """SeriesPlaces on the nominal part."""
+    """Places on the nominal part."""
     position, normal, weight, owner, uv = [], [], [], [], []
     for index, face in enumerate(part.faces):
         raster = make_raster(part.geometry(index), _CELLS)
@@ -55,8 +55,8 @@ def places_of(part: Workpiece) -> PartPlaces:
             weight.append(np.zeros(EDGE_SAMPLES))
             owner += [f"Edge{number}"] * EDGE_SAMPLES
     areas = np.concatenate(weight)
-    return PartPlaces(SeriesPlaces(np.concatenate(position), np.concatenate(normal), areas / areas.sum(), np.array(owner)),
-                      tuple(uv))
+    places = SeriesPlaces(np.concatenate(position), np.concatenate(normal), areas / areas.sum(), np.array(owner))
+    return PartPlaces(places, tuple(uv))
 
 
 def displacement(result: Result, known: PartPlaces) -> tuple[Array, Array]:

@@ -15,8 +15,8 @@ from ..registration.arrays import Array
 from ..report import record as reports
 from . import folder as layout
 from .setup import Outcome
-from .told import (Modes, SeriesPlaces, ewma_chart, find_change, find_modes, find_outliers, find_scatter, group_difference,
-                   means_chart, owner_scatter, scatter_chart)
+from .told import (Modes, SeriesPlaces, ewma_chart, find_change, find_modes, find_outliers, find_scatter,
+                   group_difference, means_chart, owner_scatter, scatter_chart)
 
 _MOST_PARTS = 2000
 """Parts whose fields are held at once; of more, so many are taken at equal steps, which the record says."""

@@ -28,7 +28,7 @@ def shapes(places: SeriesPlaces) -> tuple[np.ndarray, np.ndarray]:
     return np.sin(2 * np.pi * x), np.cos(np.pi * y)
 
 
-def process(places: SeriesPlaces, parts: int, seed: int, noise: float = 0.01) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def process(places: SeriesPlaces, parts: int, seed: int, noise: float = 0.01):
     """Displacements of parts with two modes of 0.3 and 0.1 mm and white measurement noise; scores and sigma."""
     random = np.random.default_rng(seed)
     scores = random.standard_normal((parts, 2)) * [0.3, 0.1]

@@ -15,7 +15,7 @@ _TAIL = 0.025
 
 @dataclass(frozen=True)
 class SeriesPlaces:
-    """SeriesPlaces on a part.
+    """Places on a part.
 
     Attributes
     ----------
