@@ -5,15 +5,16 @@ from __future__ import annotations
 import importlib
 import os
 import resource
+import runpy
 import select
 import signal
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...cli.main import main
-
-importlib.import_module("...api", __package__)  # here, once for all commands
+_COMMAND_LINE = "ffds_workbench.cli"
+for _name in (f"{_COMMAND_LINE}.main", "ffds_workbench.api"):
+    importlib.import_module(_name)  # here, once for all commands
 _PATIENCE = 10.0
 """Times its limit that a command is waited for, as other work may load the machine."""
 
@@ -43,6 +44,16 @@ def run(arguments: list[str], said: Path, limit: float) -> CommandEnd:
         os.close(process)
     return CommandEnd(os.waitstatus_to_exitcode(status), said.read_text("utf-8", errors="replace"),
                       used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+
+
+def main(arguments: list[str]) -> int:
+    """What ``./ffds`` runs, with its exit code."""
+    sys.argv = ["ffds", *arguments]
+    try:
+        runpy.run_module(_COMMAND_LINE, run_name="__main__")
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
 
 
 def _child(arguments: list[str], said: Path, limit: float) -> None:
