@@ -6,4 +6,6 @@ from ..compat import execute, number_of, qt, shortcut
 
 QtCore, QtGui, QtWidgets = qt("QtCore"), qt("QtGui"), qt("QtWidgets")
 
-__all__ = ["QtCore", "QtGui", "QtWidgets", "execute", "number_of", "shortcut"]
+QAction = getattr(QtWidgets, "QAction", None) or QtGui.QAction
+
+__all__ = ["QAction", "QtCore", "QtGui", "QtWidgets", "execute", "number_of", "shortcut"]

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import FreeCAD
 import FreeCADGui as Gui
-from PySide2 import QtCore, QtWidgets
 
 from ffds_workbench.gui.commands import GROUPS
 from ffds_workbench.gui.commands.weld.find_seams import FindSeams
+from ffds_workbench.gui.qt import QAction, QtCore, QtWidgets, execute
 
 
 def _report_view() -> str:
     loop = QtCore.QEventLoop()
     QtCore.QTimer.singleShot(300, loop.quit)
-    loop.exec_()
+    execute(loop)
     views = Gui.getMainWindow().findChildren(QtWidgets.QTextEdit, "Report view")
     return "\n".join(view.toPlainText() for view in views)
 
@@ -45,7 +45,7 @@ def test_no_button_is_cut_off_and_a_grey_one_says_why(hands):
     hands.wait(300)
     bars = [window.findChild(QtWidgets.QToolBar, f"FFDS {title}") for title in GROUPS]
     assert all(bar.isVisible() and bar.width() >= bar.sizeHint().width() for bar in bars)
-    grey = window.findChild(QtWidgets.QAction, FindSeams.NAME)
+    grey = window.findChild(QAction, FindSeams.NAME)
     hands.until(lambda: "Select one part, or edges of one, first." in grey.toolTip(), 5)
     document = FreeCAD.newDocument("Live")
     Gui.Selection.addSelection(document.addObject("Part::Box", "Box"))

@@ -21,12 +21,13 @@ from .learn.load_example import LoadExample
 from .scan.align_by_points import AlignByPoints
 from .scan.align_scan import AlignScan
 from .scan.import_scan import ImportScan
+from .scan.prepare_scan import PrepareScan
 from .scan.simulate_scan import SimulateScan
 from .weld.add_trajectory import AddTrajectory
 from .weld.export_program import ExportProgram
 from .weld.find_seams import FindSeams
 
-GROUPS = {"Scan": (ImportScan, SimulateScan, AlignScan, AlignByPoints),
+GROUPS = {"Scan": (ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoints),
           "Deform": (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
           "Inspect": (ShowResult, ShowDeviation),
           "Weld": (FindSeams, ExportProgram, AddTrajectory),
@@ -34,8 +35,8 @@ GROUPS = {"Scan": (ImportScan, SimulateScan, AlignScan, AlignByPoints),
 """By the title of their submenu and toolbar, which the window translates in the context "Workbench"."""
 COMMANDS = tuple(command for group in GROUPS.values() for command in group)
 CONTEXT = [command.NAME for command in (
-    DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowResult, ShowDeviation, ShowLattice, RepointReferences,
-    ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
+    DeformFaces, DeformWorkpiece, PrepareScan, AlignScan, AlignByPoints, ShowResult, ShowDeviation, ShowLattice,
+    RepointReferences, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
 
 
 def register() -> None:

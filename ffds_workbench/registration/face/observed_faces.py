@@ -11,17 +11,22 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..footpoints import surface_coordinates
-from ..scan_normals import faces_alike, scan_normals
+from ..scan_points import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .robust_fit import dense_layers
 
 Index = NDArray[np.intp]
 
 REACH = 10.0
+"""Largest distance in mm of a point from its face (unit: parts of some decimetres warp by less)."""
 LEAST_COVERAGE = 0.5
+"""Share of a face that has to be covered for it to count as observed (unit: most of it)."""
 _LEAST_POINTS = 30
+"""Points of a face that is observed (theory: twice the control points of the smallest lattice, nearly)."""
 _SAMPLE_SIZE = 40000
+"""Scan points that are looked at (unit: time)."""
 _RASTER_CELLS = 1024
+"""Cells of a face (unit: time)."""
 
 
 @dataclass(frozen=True)

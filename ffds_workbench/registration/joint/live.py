@@ -16,8 +16,9 @@ from .skins import candidate_outward_normals
 from .surfaces import JointPart
 
 _COARSER = 0.4
-"""Spans of a preview beside those of the result."""
+"""Spans of a preview over those of the result (unit: time)."""
 _SAMPLE_SIZE = 6000
+"""Scan points of a preview (unit: time)."""
 
 
 class LiveJoint:
@@ -38,7 +39,7 @@ class LiveJoint:
         self._problem = make_problem(part, scan[some], _coarse(settings), {},
                                      None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
-        sides, _ = candidate_outward_normals(self._problem, self._problem.lengths.reach)
+        sides, _ = candidate_outward_normals(self._problem)
         self._state = replace(state, outward=sides[0])
         for stage in settings.stages(self._problem.lengths):
             if not stage.all_points:

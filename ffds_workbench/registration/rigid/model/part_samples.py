@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, cKDTree
 
 from ...arrays import Array
-from ...parallel import workers
+from ...scan_points import workers
 from ..settings import RigidSettings
 from .rims import Rims
 
 Result = TypeVar("Result")
 _FLAT_SHADOW = 1e-9
-"""Width of a shadow, as a share of its length, that is none."""
+"""Width of a projection over its length below which it has no area (theory: far above rounding)."""
 
 
 @dataclass(frozen=True)

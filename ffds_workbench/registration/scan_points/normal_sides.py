@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.spatial import cKDTree
 
-from .arrays import Array
+from ..arrays import Array
 from .parallel import workers
 
 _LEAST_AGREEMENT = 0.6
-"""Cosine below which two neighbours say nothing about each other's side."""
+"""Cosine below which two neighbours say nothing about each other's side (unit: 53°, what noise does to normals)."""
 _FAR_NEIGHBOUR = 4.0
-"""Neighbours farther than the usual ones by this factor are of another surface."""
+"""Neighbours farther than the usual ones by this factor are of another surface (unit)."""
 
 
 def orient_normals(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:
