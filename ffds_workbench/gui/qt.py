@@ -6,6 +6,4 @@ from ..compat import execute, number_of, qt, shortcut
 
 QtCore, QtGui, QtWidgets = qt("QtCore"), qt("QtGui"), qt("QtWidgets")
 
-QAction = getattr(QtWidgets, "QAction", None) or QtGui.QAction
-
-__all__ = ["QAction", "QtCore", "QtGui", "QtWidgets", "execute", "number_of", "shortcut"]
+__all__ = ["QtCore", "QtGui", "QtWidgets", "execute", "number_of", "shortcut"]

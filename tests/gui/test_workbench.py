@@ -9,7 +9,7 @@ import FreeCADGui as Gui
 
 from ffds_workbench.gui.commands import GROUPS
 from ffds_workbench.gui.commands.weld.find_seams import FindSeams
-from ffds_workbench.gui.qt import QAction, QtCore, QtWidgets, execute
+from ffds_workbench.gui.qt import QtCore, QtGui, QtWidgets, execute
 
 
 def _report_view() -> str:
@@ -45,7 +45,7 @@ def test_no_button_is_cut_off_and_a_grey_one_says_why(hands):
     hands.wait(300)
     bars = [window.findChild(QtWidgets.QToolBar, f"FFDS {title}") for title in GROUPS]
     assert all(bar.isVisible() and bar.width() >= bar.sizeHint().width() for bar in bars)
-    grey = window.findChild(QAction, FindSeams.NAME)
+    grey = window.findChild(QtGui.QAction, FindSeams.NAME)
     hands.until(lambda: "Select one part, or edges of one, first." in grey.toolTip(), 5)
     document = FreeCAD.newDocument("Live")
     Gui.Selection.addSelection(document.addObject("Part::Box", "Box"))

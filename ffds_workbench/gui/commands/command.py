@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 
 from ... import RESOURCES
 from .. import giving_way
-from ..qt import QAction
+from ..qt import QtGui
 from ..running import telling
 from ..selection import Chosen, chosen, scans_of
 from ..translating import tr
@@ -42,7 +42,7 @@ class Command(ABC):
         """Say in the tooltip why the command is grey, "" where it is not."""
         if why == self._why:
             return
-        for action in Gui.getMainWindow().findChildren(QAction, self.NAME):
+        for action in Gui.getMainWindow().findChildren(QtGui.QAction, self.NAME):
             shown = action.toolTip()
             action.setToolTip(shown.removesuffix(_grey(self._why)) + _grey(why))
         self._why = why
