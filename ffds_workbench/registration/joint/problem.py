@@ -15,11 +15,11 @@ from .data import (EdgeSides, Frames, ScanStatistics, edge_sides, find_lengths, 
                    trim_margin)
 from .lengths import Lengths
 from .linear import Pattern, refuse_too_large
-from .priors import (GAUSS_PLACES, ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows,
-                     contact_rows, find_free_motions, find_pairs, make_couplings, make_stiffness)
+from .priors import (ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows, contact_rows,
+                     find_free_motions, find_pairs, make_couplings, make_stiffness)
 from .settings import JointSettings
-from .surfaces import (BorderDistance, Jet, JointPart, Lattices, SpanGrid, build_lattices, cell_sides, distance_to_trims, make_span_grid,
-                       normals, solid_sizes, span_counts)
+from .surfaces import (BorderDistance, Jet, JointPart, Lattices, SpanGrid, build_lattices, cell_sides,
+                       distance_to_trims, make_span_grid, normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
 _POINTS_PER_CELL = 8.0
@@ -141,7 +141,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     lattices = build_lattices(part.faces, counts)
     body_size = sizes[lattices.face_of_span]
     refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
-    stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES), body_size)
+    stiffness = make_stiffness(part.faces, lattices, body_size)
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)

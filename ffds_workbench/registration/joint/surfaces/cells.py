@@ -11,19 +11,17 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
-from ...trims import boundary_pieces, inside_trims
-from .lattices import Lattices, products
+from ...trims import inside_trims
+from .lattices import FaceLattice, Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
-_BORDER_PIECE = 0.2467
-"""Of the side of a cell: straight pieces along borders that are this long follow bends as narrow as two cells to a
-thousandth of a cell (theory: sagitta). No ratio of whole numbers: borders are whole numbers of cells long, and rounding
-must not choose how many pieces there are."""
+_BOX_SAMPLES = 4, 64
+"""Along a side of a box whose share within the trims is found; on a face that all miss, such as the narrow ring at the
+end of a tube, twice as many are tried, up to the second number (unit)."""
 _FACE_SEPARATION = 1e6
 _LOT = 512
 """Spans that are moved together: what they need on the way stays in the cache."""
@@ -138,6 +136,35 @@ def make_span_grid(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array
     return SpanGrid(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
 
 
+def covered_shares(faces: tuple[FaceGeometry, ...], lattices: Lattices, bounds: Array) -> Array:
+    """Share within the trims of the boxes between ``bounds`` (m + 1,), local coordinates, in every span: (spans, m²).
+
+    Parameters
+    ----------
+    faces : of the part
+    lattices : of all faces
+    """
+    shares = []
+    for face, lattice in zip(faces, lattices.faces, strict=True):
+        finest = _BOX_SAMPLES[0]
+        share = _covered(face, lattice, bounds, finest)
+        while not share.any() and finest < _BOX_SAMPLES[1]:
+            finest *= 2
+            share = _covered(face, lattice, bounds, finest)
+        shares.append(share)
+    return np.concatenate(shares)
+
+
+def _covered(face: FaceGeometry, lattice: FaceLattice, bounds: Array, samples: int) -> Array:
+    """Shares (spans, m²) of the boxes of one face, by so many ``samples`` along each side of a box."""
+    boxes, (nu, nv) = len(bounds) - 1, lattice.spans
+    x = (bounds[:-1, None] + np.diff(bounds)[:, None] * (np.arange(samples) + 0.5) / samples).ravel()
+    u, v = (corner + step * (np.arange(n)[:, None] + x).ravel()
+            for corner, step, n in zip(lattice.corner, lattice.step, lattice.spans, strict=True))
+    inside = _by_span(inside_trims(face, u, v), nu, nv, len(x)).reshape(-1, boxes, samples, boxes, samples)
+    return inside.mean(axis=(2, 4)).reshape(-1, boxes**2)
+
+
 def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
     rest = grid.shape[2:]
     blocks = grid.reshape(nu, m, nv, m, *rest).swapaxes(1, 2)
@@ -155,57 +182,3 @@ def cell_sides(lattices: Lattices, cells: SpanGrid) -> Array:
     sides = np.linalg.norm(cells.nominal.tangents, axis=3).mean(axis=1) * lattices.step / np.sqrt(len(cells.local))
     count = np.bincount(lattices.face_of_span)
     return np.asarray(np.bincount(lattices.face_of_span, sides.max(axis=1)) / count)
-
-
-@dataclass(frozen=True)
-class BorderDistance:
-    """How far the cells of a face lie from its border.
-
-    Attributes
-    ----------
-    distance : (spans, k) in mm, negative outside
-    slope : (spans, k, 2) how it grows with u and v, in mm
-    """
-
-    distance: Array
-    slope: Array
-
-
-def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid, side: Array,
-                      farthest: Array) -> BorderDistance:
-    """Distance of each cell from the border of its face, at most the ``farthest`` that matters there in mm, (faces,).
-
-    Parameters
-    ----------
-    faces : of the part
-    lattices : of all faces
-    cells : places on all faces, span by span
-    side : (faces,) length in mm of the longer sides of their cells
-    """
-    distance = np.repeat(farthest[lattices.face_of_span, None], cells.inside.shape[1], axis=1)
-    slope = np.zeros((*distance.shape, 2))
-    for index, face in enumerate(faces):
-        middle, half = boundary_pieces(face, _BORDER_PIECE * side[index])
-        if len(middle):
-            spans = np.flatnonzero(lattices.face_of_span == index)
-            away = _from_pieces(cells.nominal.position[spans].reshape(-1, 3), middle, half, farthest[index])
-            found = np.linalg.norm(away, axis=1)
-            inwards = np.where(found < farthest[index], 1 / np.maximum(found, 1e-12), 0.0)[:, None] * away
-            distance[spans] = np.minimum(found, farthest[index]).reshape(len(spans), -1)
-            slope[spans] = np.einsum("skax,skx->ska", cells.nominal.tangents[spans],
-                                     inwards.reshape(len(spans), -1, 3))
-    return BorderDistance(np.where(cells.inside, distance, -distance), slope)
-
-
-def _from_pieces(position: Array, middle: Array, half: Array, farthest: float) -> Array:
-    """From the nearest of straight pieces to each place (n, 3): (n, 3) in mm, longer than ``farthest`` if that is away."""
-    reach = np.linalg.norm(half, axis=1)
-    near = cKDTree(middle).query(position, distance_upper_bound=farthest + reach.max())[1]
-    known = np.flatnonzero(near < len(middle))
-    piece = near[known]
-    from_middle = position[known] - middle[piece]
-    along = half[piece] / np.maximum(reach[piece, None], 1e-12)
-    part = np.clip(np.einsum("nx,nx->n", from_middle, along), -reach[piece], reach[piece])
-    result = np.full_like(position, farthest)
-    result[known] = from_middle - part[:, None] * along
-    return result
