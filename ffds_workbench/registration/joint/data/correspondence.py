@@ -17,6 +17,8 @@ from ..surfaces import BorderDistance, Jet, Lattices, SpanGrid, normals
 _WITHIN_CELL = 0.75
 _LOT = 65536
 """Points that are looked at together: those of a large scan would take more memory than all else."""
+_LEAST_WIDTH = 1e-3
+"""Half width of a face that no cell shows to be wider, over the widest margin (unit)."""
 _NEGLIGIBLE_SHARE = 0.002
 """Share of the points up to which those on the wrong side are left out rather than matched again."""
 
@@ -152,4 +154,4 @@ def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:
     """
     widest = np.zeros(len(lattices.faces))
     np.maximum.at(widest, lattices.face_of_span, distance.max(axis=1))
-    return np.minimum(most, 0.5 * widest)[lattices.face_of_span]
+    return np.minimum(most, np.maximum(0.5 * widest, _LEAST_WIDTH * most))[lattices.face_of_span]
