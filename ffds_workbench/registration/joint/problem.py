@@ -22,15 +22,21 @@ from .surfaces import (BorderDistance, Jet, JointPart, Lattices, SpanGrid, build
                        distance_to_trims, make_span_grid, normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
+"""Scan points of the early stages (unit: time)."""
 _POINTS_PER_CELL = 8.0
+"""Points of a cell where the scan is dense (theory: a median of eight is known to 0.44 of the noise)."""
 _POINTS_PER_SPAN = 20.0
+"""Points of a span at least (theory: sixteen control points act on one)."""
 _FEWEST_POINTS = 50
+"""Points of a scan at least (unit)."""
 _FARTHEST_IN_MARGINS, _FARTHEST_IN_SIDES = 4.0, 1.1
 """Distances from the border are known up to so many margins and sides of cells together (theory: nothing asks for
 more; points lie within three quarters of a diagonal from the middle of their cell)."""
 _CELLS_PER_SPAN = (3, 10)
+"""Cells along a span, at least and at the most (theory: three see what a cubic can follow; unit: memory)."""
 _WALL_ISOMETRY = 0.1
-"""Isometry of faces that are no skin of a sheet, relative to the skins'."""
+"""Isometry of faces that are no skin of a sheet, over the skins' (calibrated: by hand, on the families of ``./ffds
+benchmark accuracy``)."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +54,7 @@ class Problem:
     constant : rows that are the same at every shape
     sides : where the faces lie at their edges
     lengths : of the solve
-    free_motions : of solids in themselves, of which no scan tells
+    free_motions : of solids within their own surface
     margin : (spans,) distance from the border that the foot points of the scan must keep, in mm
     body_size : (spans,) size in mm of the solid that a span belongs to
     cell_side : usual length in mm of the sides of the cells

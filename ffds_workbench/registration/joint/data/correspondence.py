@@ -15,12 +15,14 @@ from ...arrays import Array, Index
 from ..surfaces import BorderDistance, Jet, Lattices, SpanGrid, normals
 
 _WITHIN_CELL = 0.75
+"""Sizes of a cell from its centre within which foot points belong to it (theory: half, and a quarter for neighbours'
+curved borders)."""
 _LOT = 65536
-"""Points that are looked at together: those of a large scan would take more memory than all else."""
+"""Points that are matched together: those of a large scan would take more memory than all else (unit: memory)."""
 _LEAST_WIDTH = 1e-3
 """Half width of a face that no cell shows to be wider, over the widest margin (unit)."""
 _NEGLIGIBLE_SHARE = 0.002
-"""Share of the points up to which those on the wrong side are left out rather than matched again."""
+"""Share of the points up to which those on the wrong side are left out rather than matched again (unit: time)."""
 
 
 @dataclass(frozen=True)

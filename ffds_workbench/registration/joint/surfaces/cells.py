@@ -23,8 +23,9 @@ _BOX_SAMPLES = 4, 64
 """Along a side of a box whose share within the trims is found; on a face that all miss, such as the narrow ring at the
 end of a tube, twice as many are tried, up to the second number (unit)."""
 _FACE_SEPARATION = 1e6
+"""Distance in mm that parts faces in a tree (theory: farther than any part is large)."""
 _LOT = 512
-"""Spans that are moved together: what they need on the way stays in the cache."""
+"""Spans that are moved together (unit: memory of a processor's cache)."""
 
 
 @dataclass(frozen=True)
