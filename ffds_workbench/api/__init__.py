@@ -47,6 +47,7 @@ _HOMES = {
     ".inputs": ("as_request", "read_model", "read_scan"),
     ".methods": ("OtherSideError",),
     ".outputs": ("write", "write_deviation"),
+    ".pages": ("write_pages",),
     ".preparing": ("prepare", "write_prepared"),
     ".registering": ("Result", "register", "run"),
     ".sensors": ("measure_sensor", "write_sensor"),

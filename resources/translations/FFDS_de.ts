@@ -388,6 +388,10 @@
       <translation>Ist-Teil exportieren</translation>
     </message>
     <message>
+      <source>Export report</source>
+      <translation>Bericht exportieren</translation>
+    </message>
+    <message>
       <source>Export robot program</source>
       <translation>Roboterprogramm exportieren</translation>
     </message>
@@ -680,6 +684,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Report (*.json)</source>
       <translation>Bericht (*.json)</translation>
+    </message>
+    <message>
+      <source>Report…</source>
+      <translation>Bericht …</translation>
     </message>
     <message>
       <source>Result</source>
@@ -1042,6 +1050,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>gelb</translation>
     </message>
     <message>
+      <source>{count} lone points left out</source>
+      <translation>{count} einzelne Punkte ausgelassen</translation>
+    </message>
+    <message>
       <source>{count} points. Choose what shall be done.</source>
       <translation>{count} Punkte. Wählen Sie, was geschehen soll.</translation>
     </message>
@@ -1189,6 +1201,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Writes the selected seams for KUKA, ABB or Universal Robots, as a table, as a report or as a picture.</source>
       <translation>Schreibt die gewählten Nähte für KUKA, ABB oder Universal Robots, als Tabelle, als Bericht oder als Bild.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_ExportReport</name>
+    <message>
+      <source>Export report…</source>
+      <translation>Bericht exportieren …</translation>
+    </message>
+    <message>
+      <source>Write the report on the selected as-built part: one HTML page with the part to turn, or a PDF</source>
+      <translation>Den Bericht über das gewählte Ist-Teil schreiben: eine HTML-Seite mit dem Teil zum Drehen, oder ein PDF</translation>
+    </message>
+    <message>
+      <source>Writes the verdict, pictures of the deviation, the table of the faces, the certificate and the settings of the selected as-built part. The page needs no network and holds the part to turn in the browser.</source>
+      <translation>Schreibt das Urteil, Bilder der Abweichung, die Tabelle der Flächen, das Zertifikat und die Einstellungen des gewählten Ist-Teils. Die Seite braucht kein Netz und enthält das Teil zum Drehen im Browser.</translation>
     </message>
   </context>
   <context>
@@ -2003,6 +2030,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Bericht {0} ist kein JSON: Nennen Sie die Datei, die register mit --report geschrieben hat.</translation>
     </message>
     <message>
+      <source>The report {0} is of an unknown format: use .html or .pdf.</source>
+      <translation>Der Bericht {0} hat ein unbekanntes Format: .html oder .pdf verwenden.</translation>
+    </message>
+    <message>
       <source>The scan and the model do not overlap, the nearest scan point is {0} mm away: align the scan with the model first.</source>
       <translation>Scan und Modell überlappen sich nicht, der nächste Scanpunkt ist {0} mm entfernt: Richten Sie den Scan zuerst am Modell aus.</translation>
     </message>
@@ -2253,6 +2284,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The shape's BREP text is damaged: its sections are not the expected ones.</source>
       <translation>Der BREP-Text der Form ist beschädigt: Seine Abschnitte sind nicht die erwarteten.</translation>
+    </message>
+    <message>
+      <source>The side {0} is no direction: give X,Y,Z, from the part to the viewer.</source>
+      <translation>Die Seite {0} ist keine Richtung: X,Y,Z vom Teil zum Betrachter angeben.</translation>
     </message>
     <message>
       <source>The spacing of a simulated scan must be positive, not {0} mm.</source>

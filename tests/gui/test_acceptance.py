@@ -119,7 +119,7 @@ def test_a_whole_session(hands, files):
     cancel_in_mid_work(hands, document, item)
 
 
-def test_the_card_by_mouse_alone(hands):
+def test_the_card_by_mouse_alone(hands, tmp_path):
     """A face is picked through the cloud that lies on it, deformed, judged, looked at and undone."""
     hands.choose("FFDS", "Learn", "Load the example")
     document = FreeCAD.ActiveDocument
@@ -136,10 +136,16 @@ def test_the_card_by_mouse_alone(hands):
     table = hands.find("FfdsFaces", QtWidgets.QTableWidget)
     hands.click(table.viewport(), table.visualItemRect(table.item(0, 0)).center())
     assert [entry.SubElementNames for entry in Gui.Selection.getSelectionEx()] == [("Face9",)]
-    hands.click(hands.find("FFDS_ShowDeviation_Way"))
+    report = tmp_path / "report.html"
+    hands.name_file(report)
+    hands.click(hands.find("FFDS_ExportReport_Way"))
+    hands.until(report.exists, 20)
+    assert "fits the scan within its noise" in report.read_text("utf-8")
+    hands.choose("FFDS", "Inspect", "Show deviation")
     hands.until(lambda: hands.says("FfdsCursor"), 20)
     hands.pick((25.0, 0.0, 20.0))
     assert "mm" in hands.says("FfdsCursor") and not Gui.Selection.getSelection()
+    assert "lone points left out" in hands.says("FfdsFigures")
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
     hands.press(QtCore.Qt.Key_Z)
     assert [item.Name for item in document.Objects] == ["Bracket", "Scan"] and document.Bracket.Visibility

@@ -14,6 +14,7 @@ from .deform.deform_workpiece import DeformWorkpiece
 from .deform.export_as_built import ExportAsBuilt
 from .deform.repoint_references import RepointReferences
 from .deform.show_lattice import ShowLattice
+from .inspect.export_report import ExportReport
 from .inspect.show_deviation import ShowDeviation
 from .inspect.show_result import ShowResult
 from .learn.first_steps import FirstSteps
@@ -29,14 +30,14 @@ from .weld.find_seams import FindSeams
 
 GROUPS = {"Scan": (ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoints),
           "Deform": (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
-          "Inspect": (ShowResult, ShowDeviation),
+          "Inspect": (ShowResult, ShowDeviation, ExportReport),
           "Weld": (FindSeams, ExportProgram, AddTrajectory),
           "Learn": (FirstSteps, LoadExample)}
 """By the title of their submenu and toolbar, which the window translates in the context "Workbench"."""
 COMMANDS = tuple(command for group in GROUPS.values() for command in group)
 CONTEXT = [command.NAME for command in (
     DeformFaces, DeformWorkpiece, PrepareScan, AlignScan, AlignByPoints, ShowResult, ShowDeviation, ShowLattice,
-    RepointReferences, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
+    ExportReport, RepointReferences, ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
 
 
 def register() -> None:

@@ -16,9 +16,11 @@ from ...brep.simulated_scan import edge_points
 from ...objects.as_built import is_as_built
 from ...objects.scans import scan_points
 from ...registration.uv_raster import make_raster
+from ...report.coloured_faces import corner_values, corners, surface_grid
+from ...report.lone_points import lone_points
+from ...report.statistics import statistics
 from .. import running
 from ..preferences import preferences
-from ..preview.face_on_scan import corner_values, corners, surface_grid
 from ..qt import QtWidgets, number_of
 from ..selection import parts_shown, scans_of
 from ..translating import tr
@@ -43,16 +45,19 @@ def open_panel(part: Any, scan: Any) -> None:
         models = [(name, model_file.from_object(item)) for name, item in states]
 
         def measure(progress: Any) -> list[Any]:
-            return [(name, api.deviation(model, points, progress)) for name, model in models]
+            found = [(name, api.deviation(model, points, progress)) for name, model in models]
+            return found, lone_points(points)
 
-        found = running.in_background(tr("Measuring the deviation"), measure)
-        Gui.Control.showDialog(DeviationPanel(part, scan, found))
+        found, lone = running.in_background(tr("Measuring the deviation"), measure)
+        Gui.Control.showDialog(DeviationPanel(part, scan, found, lone))
 
 
 class DeviationPanel:
-    """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part."""
+    """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part, ``lone`` which points of
+    the scan stand alone."""
 
-    def __init__(self, part: Any, scan: Any, found: list[tuple[str, api.Deviation]]) -> None:
+    def __init__(self, part: Any, scan: Any, found: list[tuple[str, api.Deviation]], lone: NDArray[np.bool_]) -> None:
+        self._lone = lone
         self._part, self._scan, self._found = part, scan, dict(found)
         self._meshes: dict[str, list[tuple[Array, Array, Array]]] = {}
         self.form = Form()
@@ -92,9 +97,10 @@ class DeviationPanel:
 
     def _show(self, *_: Any) -> None:
         item = self._found[self._state.currentData()]
-        values = _deviations(item)
-        self._points = item.scan.points[np.concatenate([face.points for face in item.faces])]
-        self._values = values
+        index, values = np.concatenate([face.points for face in item.faces]), _deviations(item)
+        kept = ~self._lone[index]
+        values = self._values = values[kept]
+        self._points = item.scan.points[index[kept]]
         limit, tolerance = max(self._limit.value(), 1e-6), self._tolerance.value()
         if self._on.currentData() == "scan":
             nodes = [points_node(self._points, packed_colours(values, limit, tolerance))]
@@ -109,7 +115,7 @@ class DeviationPanel:
             self._overlay.fade([item for item in self._shown if item is not self._scan], _PART_TRANSPARENCY)
         self._overlay.cover(self._scan, *[self._part] if self._on.currentData() == "part" else [])
         self._legend.show_deviations(values, limit, tolerance)
-        self._figures.setText(_figures_text(item.report["deviation"], values, tolerance))
+        self._figures.setText(_figures_text(values, tolerance, len(kept) - len(values)))
         self._cursor.setText(tr("Point at the part to read the deviation there."))
 
     def _coloured_faces(self, item: api.Deviation) -> list[tuple[Array, Array, Array]]:
@@ -120,7 +126,8 @@ class DeviationPanel:
             for index, face in enumerate(item.faces):
                 geometry = part.geometry(index)
                 raster = make_raster(geometry)
-                means = corner_values(raster, item.scan.points[face.points], face.deviations)
+                kept = ~self._lone[face.points]
+                means = corner_values(raster, item.scan.points[face.points[kept]], face.deviations[kept])
                 points = geometry.surface.on_grid(*corners(raster)).reshape(-1, 3)
                 self._meshes[name].append((points, surface_grid(raster), means))
         return self._meshes[name]
@@ -161,11 +168,15 @@ def _deviations(item: api.Deviation) -> Array:
     return np.concatenate([face.deviations for face in item.faces])
 
 
-def _figures_text(block: dict[str, float], values: Array, tolerance: float) -> str:
+def _figures_text(values: Array, tolerance: float, lone: int) -> str:
+    found = statistics(values)
+    block = dict.fromkeys(("mean", "p95", "max", "signed_mean"), 0.0) if found is None else found.as_dict()
     text = tr("{count} points: mean {mean} mm, 95 % below {p95} mm, largest {max} mm, signed mean {signed} mm").format(
         count=len(values), signed=f"{block['signed_mean']:+.3f}",
         **{name: f"{block[name]:.3f}" for name in ("mean", "p95", "max")})
     if tolerance > 0:
         share = f"{100 * np.mean(np.abs(values) <= tolerance):.1f}"
         text += "; " + tr("{share} % within the tolerance").format(share=share)
+    if lone:
+        text += "; " + tr("{count} lone points left out").format(count=lone)
     return text.replace(" mm", "\u00a0mm").replace(" %", "\u00a0%")

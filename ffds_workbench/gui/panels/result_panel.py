@@ -64,7 +64,8 @@ class ResultPage:
         """Buttons that lead on; each begins with the part selected."""
         grid = QtWidgets.QGridLayout()
         ways = ((tr("Deviation"), "FFDS_ShowDeviation"), (tr("Weld seams…"), "FFDS_FindSeams"),
-                (tr("Export…"), "FFDS_ExportAsBuilt"), (tr("Settings…"), "FFDS_DeformFaces"))
+                (tr("Export…"), "FFDS_ExportAsBuilt"), (tr("Settings…"), "FFDS_DeformFaces"),
+                (tr("Report…"), "FFDS_ExportReport"))
         for number, (text, command) in enumerate(ways):
             button = named(QtWidgets.QPushButton(text), f"{command}_Way")
             button.clicked.connect(lambda _=False, command=command: self._go_on(command))
