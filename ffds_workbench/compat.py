@@ -21,11 +21,12 @@ _MATERIAL = np.dtype([("ambient", "<u4"), ("diffuse", "<u4"), ("specular", "<u4"
 
 
 def qt(module: str) -> Any:
-    """A module of Qt, "QtCore" for instance, of the Qt that this FreeCAD has."""
-    try:
-        return importlib.import_module(f"PySide2.{module}")
-    except ImportError:
-        return importlib.import_module(f"PySide6.{module}")
+    """A module of Qt, "QtCore" for instance, of the Qt that this FreeCAD's own ``PySide`` hands out.
+
+    QtGui holds what Qt 5 has among the widgets, too.
+    """
+    binding = importlib.import_module("PySide.QtCore").QObject.__module__.partition(".")[0]  # "PySide2" or "PySide6"
+    return importlib.import_module("PySide.QtGui" if module == "QtGui" else f"{binding}.{module}")
 
 
 def freecad_version() -> str:
@@ -49,6 +50,14 @@ def _lists_seams_once() -> bool:
     return len(Part.makeCylinder(1.0, 1.0).Faces[0].Wires[0].childShapes(False, True)) == 3
 
 
+def turns_rings() -> bool:
+    """Whether OCCT's STEP reader begins the loop of a face closed both ways, as a torus is, at its second edge;
+    from 7.8 on it begins where the file does."""
+    import Part
+
+    return tuple(map(int, Part.OCC_VERSION.split(".")[:2])) < (7, 8)
+
+
 def execute(loop_or_dialog: Any) -> int:
     """Run a dialog or an event loop until it ends: ``exec_`` in Qt 5, ``exec`` in Qt 6."""
     run = getattr(loop_or_dialog, "exec", None) or loop_or_dialog.exec_
@@ -61,10 +70,9 @@ def number_of(flags: Any) -> int:
 
 
 def shortcut(key: Any, window: Any) -> Any:
-    """A QShortcut, which Qt 6 has moved."""
-    gui, widgets = qt("QtGui"), qt("QtWidgets")
-    kind = widgets.QShortcut if hasattr(widgets, "QShortcut") else gui.QShortcut
-    return kind(gui.QKeySequence(key), window)
+    """A QShortcut."""
+    gui = qt("QtGui")
+    return gui.QShortcut(gui.QKeySequence(key), window)
 
 
 class Stateless:

@@ -36,7 +36,7 @@ def run(edges, *more) -> int:
 def test_seams_that_the_robot_cannot_weld_are_in_no_program(blocks, tmp_path, capfd):
     assert run(blocks, "--out", "weld.script", "weld.csv", "--report", "seams.json") == 0
     said = capfd.readouterr().out
-    assert "therefore they are in no program" in said and "fail (reach)" in said
+    assert "therefore they are left out of the programs" in said and "fail (reach)" in said
     report = json.loads((tmp_path / "seams.json").read_text())
     robot = report["robot"]
     good, bad = robot["seams"]

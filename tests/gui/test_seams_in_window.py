@@ -7,14 +7,17 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands.add_trajectory import AddTrajectory
 from ffds_workbench.gui.commands.export_program import ExportProgram
 from ffds_workbench.gui.commands.find_seams import FindSeams
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.gui.view3d.seams_drawing import FAIL, PASS, verdict_colours
 from ffds_workbench.objects import actions
 from ffds_workbench.objects.seams import stations_of, wishes_of
+
+QtTest = qt("QtTest")
 
 
 @pytest.fixture
@@ -156,7 +159,7 @@ def test_seams_that_fail_are_asked_about_before_the_program_is_written(hands, bl
     hands.command(ExportProgram)
     hands.until(lambda: read)
     hands.wait(300)
-    assert read[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    assert read[0] == f"Beyond their limits, and therefore left out of the programs: {edges[1]} (lateral, normal)."
     assert target.exists() == (seams_in > 0)
     written = (tmp_path / "weld.dat").read_text() if seams_in else ""
     assert [name in written for name in ("XS1IN", "XS2IN")] == [seams_in >= number for number in (1, 2)]

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lengths of one solve, found once: everything that has a unit of length and is no property of the shape."""
+"""The lengths of one solve, computed once: everything with a unit of length that is not a property of the shape."""
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+from ..robust_weights import NOISE_ENDS_SIGMAS
 
 _STIFF = 30.0
 """The reach over the scatter of the points about the shape while it is still stiff (unit)."""
@@ -12,8 +14,6 @@ _MODEL = 3e-4
 """Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
 _CLEAN = 3e-3
 """Of the reach: noise below which a scan counts as clean (unit: ten times what the model leaves at best)."""
-_FARTHEST_IN_NOISES = 4.0
-"""Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _POSE = 1 / 3
 """Of the reach: how far a solid may sit from its place as a whole (unit)."""
 _TOGETHER = 3e-3
@@ -61,9 +61,14 @@ class Lengths:
         return max(self.noise, self.reach * _CLEAN)
 
     @property
+    def border_margin(self) -> float:
+        """Distance from a border that points of the face keep: the neighbour's have their feet nearer to it."""
+        return NOISE_ENDS_SIGMAS * self.border
+
+    @property
     def farthest_noise(self) -> float:
         """How far from the part noise alone carries points."""
-        return _FARTHEST_IN_NOISES * self.noise
+        return NOISE_ENDS_SIGMAS * self.noise
 
     @property
     def pose(self) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Array
-from ..scan_sketch import find_table, sketch_of
+from ..scan_points import sketch_of, table_of_sketch
 from .alignment_result import FAILED, Alignment
 from .evidence import LooseScan, match_scan, weigh_match
 from .hypothesis import Hypothesis, choose, clearly_right, is_good, matched_on, promising, refined
@@ -26,18 +26,18 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
     Parameters
     ----------
     target : the model, see ``target_of``, and with it the settings
-    scan : (n, 3) in mm, or in a unit that is to be recognised
-    mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" looks close around the
-        present pose, and of poses that fit alike takes the nearest
+    scan : (n, 3) in mm, or in another unit, which is recognised
+    mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" searches close to the
+        present pose, and takes the nearest of poses that fit equally well
     scales : factors to try on the scan's coordinates; by default those that its size allows
     seed : of the random choice of points
 
     Notes
     -----
     Coarse to fine: hundreds of poses with 120 points each, by Gauss-Newton steps on a look-up table of nearest samples
-    that face the same way; the few dozen that are left with more points; the best dozen against the exact faces, each
-    verified. The best one is polished on thousands of points. A scan that lies nearby is first tried with little
-    effort.
+    that face the same way; the few dozen that remain with more points; the best dozen against the exact faces, each
+    verified. The best one is polished on thousands of points. For a scan that lies nearby a quick search is tried
+    first.
     """
     scales = plausible_scales(scan, target.size, target.settings.units) if scales is None else scales
     answer: Alignment | None = None
@@ -86,9 +86,9 @@ def _look_at(target: Target, points: Array, effort: Effort, generator: np.random
     # a point too far from the centroid cannot lie on the part
     table = None
     if extent > effort.table_from * target.size:
-        table = find_table(sketch, target.largest_projection, generator)
+        table = table_of_sketch(sketch, target.largest_projection, generator)
     if table is not None:
-        points = points[table.heights(points) > table.tolerance]
+        points = points[table.in_front(points)]
         sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
     return LooseScan(target, sketch, table)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Does a pose explain the scan, and the scan the part? Judged against the model, whatever proposed the pose."""
+"""Does a pose explain the scan, and the scan the part? Judged against the model, independently of the search."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -10,8 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Array
 from ..motions import apply
-from ..parallel import workers
-from ..scan_sketch import Plane, Sketch
+from ..scan_points import Sketch, TablePlane, workers
 from .deformation import DisplacementField, Match, match_deformed
 from .model import Target
 from .settings import Rounds
@@ -22,7 +21,7 @@ _LEAST_EXPLAINED = 12
 
 @dataclass(frozen=True)
 class LooseScan:
-    """A scan that may show the part, and lies nobody knows where.
+    """A scan that may show the part, in an unknown pose.
 
     Attributes
     ----------
@@ -33,7 +32,7 @@ class LooseScan:
 
     target: Target
     sketch: Sketch
-    table: Plane | None
+    table: TablePlane | None
 
     @property
     def hides_sides(self) -> bool:
@@ -60,7 +59,7 @@ class Evidence:
     misfit : mean distance of the scan from the part after a smooth deformation is allowed for, less the noise, capped
         and as a share of the cap: 0 is perfect, 1 is nothing
     coverage : share of the part's visible surface that the scan shows
-    missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
+    missing : area that cameras at the inferred views should have seen and did not, as a share of what they saw
     pierced : share of the part that would lie behind the table
     bent : root mean square of the smooth deformation, as a share of the part's size
     score : rank among poses, larger is better, 1 is perfect
@@ -76,7 +75,7 @@ class Evidence:
 
     @property
     def certainty(self) -> float:
-        """Mean of the score and of what is explained, 1 is perfect: what tells the part from another one."""
+        """Mean of the score and of the share explained, 1 is perfect: it distinguishes the part from other ones."""
         return 0.5 * (self.score + self.explained)
 
 
@@ -105,7 +104,7 @@ def weigh_match(scan: LooseScan, pose: Array, normals: Array, found: Match) -> E
     pierced = 0.0
     if scan.table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
-        depth = max(scan.table.tolerance, settings.below_table * target.size)
+        depth = max(scan.table.below, settings.below_table * target.size)
         pierced = float(np.mean(scan.table.heights(in_scan) < -depth))
     off = (apply(pose, scan.sketch.points) - found.points)[agree]
     bent = float(np.sqrt(np.mean(off**2) * 3.0)) / target.size if agree.any() else 0.0

@@ -124,9 +124,9 @@ def program_notes(plan: SeamPlan, robot: RobotSettings, planned: PlannedMoves | 
                if (exceeded := seam.exceeded(plan.limits))]
     notes = []
     if failing and robot.keep_failing:
-        notes.append(f"Beyond their limits, and in the programs all the same: {', '.join(failing)}.")
+        notes.append(f"Beyond their limits, but included in the programs: {', '.join(failing)}.")
     elif failing:
-        notes.append(f"Beyond their limits, and therefore in no program: {', '.join(failing)}.")
+        notes.append(f"Beyond their limits, and therefore left out of the programs: {', '.join(failing)}.")
     if planned is not None:
         return [*notes, *planned.notes]
     return notes + blocked_ways(plan.shape, [moves(seam, robot) for seam in programmed_seams(plan, robot)])
