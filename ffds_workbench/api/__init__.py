@@ -34,11 +34,8 @@ _HOMES = {
     "..scan.poses": ("read_poses",),
     "..scan.preparation": ("PreparationSettings", "PreparedScan"),
     "..scan.sensor": ("SensorSettings", "View"),
-<<<<<<< HEAD
     "..robot.cells": ("Cell",),
-=======
     "..series": ("Series", "SeriesLimits", "series"),
->>>>>>> main
     "..seams.taught.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
     "..seams.plan": ("plan_seams",),

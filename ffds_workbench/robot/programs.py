@@ -37,7 +37,8 @@ def planned_moves(plan: SeamPlan, robot: RobotPlan, settings: RobotSettings) -> 
         found += [moves(seam.seam, settings) for seam in failing]
         notes.append(f"The {arm.name} cannot weld them, and they are in the programs all the same: {_names(failing)}.")
     elif failing:
-        notes.append(f"The {arm.name} cannot weld them, and therefore they are left out of the programs: {_names(failing)}.")
+        notes.append(f"The {arm.name} cannot weld them, and therefore they are left out of the programs: "
+                     f"{_names(failing)}.")
     notes += [f"Of the {arm.name}: {text}" for text in arm.unsure]
     refusal = (f"The {arm.name} can weld no seam, so no program was written; {'; '.join(s.line() for s in failing)}. "
                "Change the cell, or keep failing seams (--keep-failing)." if failing else
