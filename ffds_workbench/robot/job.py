@@ -17,7 +17,7 @@ from ..seams.plan import SeamPlan
 from ..seams.programs.moves import RobotSettings
 from ..seams.trust import read_trust, trust_of
 from .cells import Cell
-from .clearance import MeshDistance, Moving, Surroundings, Triangles, joined, triangles_of
+from .clearance import MeshDistance, Moving, Surroundings, Facets, joined, triangles_of
 from .planning import Course, Failure, SeamPath, leaving, plan_path, remedy, transfer
 
 Progress = Callable[[str], object]
@@ -132,7 +132,7 @@ def _moving(plan: SeamPlan, cell: Cell, bands: str | Path | Mapping[str, Any] | 
         wide[: len(names)] = [trust.band(name) for name in names]
     meshes = [part]
     for number, (_, mesh) in enumerate(cell.meshes, len(names)):
-        meshes.append(Triangles(mesh.corners, mesh.faces + number, mesh.normals))
+        meshes.append(Facets(mesh.corners, mesh.faces + number, mesh.normals))
     around = Surroundings(MeshDistance(joined(meshes), wide), [*names, *(name for name, _ in cell.meshes)], cell.solids)
     return Moving(cell.arm, cell.base, cell.torch.tcp, cell.torch.about_the_wire, cell.torch.beside_the_wire, around)
 

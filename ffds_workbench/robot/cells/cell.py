@@ -9,7 +9,7 @@ import numpy as np
 
 from ...registration.arrays import Array
 from ..arms import Arm
-from ..clearance import Solid, Triangles
+from ..clearance import Solid, Facets
 from .torch import Torch
 
 FREE = (-math.pi, math.pi)
@@ -35,7 +35,7 @@ class Cell:
     base: Array
     torch: Torch = field(default_factory=Torch)
     solids: tuple[tuple[str, Solid], ...] = ()
-    meshes: tuple[tuple[str, Triangles], ...] = ()
+    meshes: tuple[tuple[str, Facets], ...] = ()
     clearance: float = 1.0
     yaw: tuple[float, float] = FREE
     work: tuple[float, float] = (-math.radians(20.0), math.radians(20.0))

@@ -15,7 +15,7 @@ from ...errors import InputError
 from ...registration.arrays import Array
 from ...seams.programs.angles import from_kuka_angles
 from ..arms import Arm, read_arm
-from ..clearance import Box, Cylinder, Solid, Triangles, triangles_of_file
+from ..clearance import Box, Cylinder, Solid, Facets, triangles_of_file
 from .cell import FREE, Cell, default_base
 from .torch import Torch
 
@@ -53,8 +53,8 @@ def read_cell(path: Path | None, robot: str | Path | None) -> Cell:
     found = [_solid(item, folder, number) for number, item in enumerate(_solids(entries), 1)]
     return Cell(arm, _pose(entries["base"], "base") if "base" in entries else default_base(arm),
                 _torch(entries.get("torch", {})),
-                tuple((name, item) for name, item in found if not isinstance(item, Triangles)),
-                tuple((name, item) for name, item in found if isinstance(item, Triangles)), **said)
+                tuple((name, item) for name, item in found if not isinstance(item, Facets)),
+                tuple((name, item) for name, item in found if isinstance(item, Facets)), **said)
 
 
 def _entries(path: Path) -> Mapping[str, Any]:
@@ -134,7 +134,7 @@ def _solids(entries: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return [*table, *found]
 
 
-def _solid(entry: object, folder: Path, number: int) -> tuple[str, Solid | Triangles]:
+def _solid(entry: object, folder: Path, number: int) -> tuple[str, Solid | Facets]:
     if not isinstance(entry, Mapping):
         raise InputError(f"Solid {number} of the cell must be an object.")
     _check_keys(entry, ("name", "box", "cylinder", "step", "at"), f"solid {number} of the cell")

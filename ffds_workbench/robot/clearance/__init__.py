@@ -9,7 +9,7 @@ from .moving import Moving
 from .part import triangles_of, triangles_of_file
 from .solids import Box, Cylinder, Solid
 from .surroundings import MeshDistance, Nearness, Surroundings
-from .triangles import Triangles, joined, triangles
+from .triangles import Facets, joined, triangles
 
-__all__ = ["Balls", "Box", "Cylinder", "MeshDistance", "Moving", "Nearness", "Solid", "Surroundings", "Triangles",
+__all__ = ["Balls", "Box", "Cylinder", "MeshDistance", "Moving", "Nearness", "Solid", "Surroundings", "Facets",
            "along", "cylinder", "joined", "joined_balls", "of_links", "triangles", "triangles_of", "triangles_of_file"]

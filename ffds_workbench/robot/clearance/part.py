@@ -10,13 +10,13 @@ import Part
 
 from ...brep.model_files import model_file
 from ...registration.arrays import Array
-from .triangles import Triangles, joined, triangles
+from .triangles import Facets, joined, triangles
 
 _DEVIATION = 0.05
 """How far in mm the triangles may be off the faces."""
 
 
-def triangles_of(shape: Part.Shape) -> Triangles:
+def triangles_of(shape: Part.Shape) -> Facets:
     """The triangles of all solids of a shape; faces that belong to none are taken by themselves."""
     shape.tessellate(_DEVIATION)
     faces = {face.hashCode(): number for number, face in enumerate(shape.Faces)}
@@ -27,7 +27,7 @@ def triangles_of(shape: Part.Shape) -> Triangles:
     return joined([_of_faces([(faces.get(face.hashCode(), 0), face) for face in members]) for members in groups])
 
 
-def _of_faces(members: list[tuple[int, Part.Face]]) -> Triangles:
+def _of_faces(members: list[tuple[int, Part.Face]]) -> Facets:
     points, indices, owners, count = [], [], [], 0
     for number, face in members:
         corners, facets = face.tessellate(_DEVIATION)
@@ -40,7 +40,7 @@ def _of_faces(members: list[tuple[int, Part.Face]]) -> Triangles:
     return triangles(np.concatenate(points), np.concatenate(indices), np.concatenate(owners))
 
 
-def triangles_of_file(path: Path, pose: Array) -> Triangles:
+def triangles_of_file(path: Path, pose: Array) -> Facets:
     """The triangles of a model file, moved by a pose (4, 4); they all count as one face.
 
     Raises
@@ -50,4 +50,4 @@ def triangles_of_file(path: Path, pose: Array) -> Triangles:
     shape = model_file.read(path).shape.copy()
     shape.transformShape(FreeCAD.Matrix(*pose.ravel().tolist()))
     found = triangles_of(shape)
-    return Triangles(found.corners, np.zeros_like(found.faces), found.normals)
+    return Facets(found.corners, np.zeros_like(found.faces), found.normals)

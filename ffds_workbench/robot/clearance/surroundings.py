@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from ...registration.arrays import Array, Index
 from .solids import Solid
-from .triangles import Triangles, signed_distances, spread
+from .triangles import Facets, signed_distances, spread
 
 _CELLS = 1_500_000
 _FINEST_CELL = 4.0
@@ -46,7 +46,7 @@ class MeshDistance:
     bands : (faces,) how uncertain each face is in mm: it is taken to stand out by that; NaN where nothing is known
     """
 
-    def __init__(self, surface: Triangles, bands: Array) -> None:
+    def __init__(self, surface: Facets, bands: Array) -> None:
         self.surface = surface
         self.bands = np.nan_to_num(bands)[surface.faces]
         area = 0.5 * np.linalg.norm(np.cross(surface.corners[:, 1] - surface.corners[:, 0],

@@ -17,7 +17,7 @@ _AREA = 1e-10
 
 
 @dataclass(frozen=True)
-class Triangles:
+class Facets:
     """Triangles with outward normals.
 
     Attributes
@@ -32,7 +32,7 @@ class Triangles:
     normals: Array
 
 
-def triangles(points: Array, indices: Index, faces: Index) -> Triangles:
+def triangles(points: Array, indices: Index, faces: Index) -> Facets:
     """Triangles of one closed solid.
 
     Parameters
@@ -59,16 +59,16 @@ def triangles(points: Array, indices: Index, faces: Index) -> Triangles:
     at_sides = np.zeros((side.max(initial=-1) + 1, 3))
     np.add.at(at_sides, side, np.repeat(normal, 3, axis=0))
     normals = np.concatenate([normal[:, None], at_sides[side].reshape(-1, 3, 3), at_corners[indices]], axis=1)
-    return Triangles(corners, faces, normals)
+    return Facets(corners, faces, normals)
 
 
-def joined(parts: list[Triangles]) -> Triangles:
+def joined(parts: list[Facets]) -> Facets:
     """Triangles of several solids."""
-    return Triangles(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "faces",
+    return Facets(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "faces",
                                                                                           "normals")))
 
 
-def signed_distances(surface: Triangles, which: Index, points: Array) -> Array:
+def signed_distances(surface: Facets, which: Index, points: Array) -> Array:
     """Distances (…) in mm of points (…, 3) from the triangles ``which`` (…), negative behind them."""
     a, b, c = np.moveaxis(surface.corners[which], -2, 0)
     starts, sides = np.stack([a, b, c], axis=-2), np.stack([b - a, c - b, a - c], axis=-2)
@@ -88,7 +88,7 @@ def signed_distances(surface: Triangles, which: Index, points: Array) -> Array:
     return sign * np.where(inside, np.abs(height), np.sqrt(squares.min(axis=-1)))
 
 
-def spread(surface: Triangles, spacing: float) -> tuple[Array, Index]:
+def spread(surface: Facets, spacing: float) -> tuple[Array, Index]:
     """Points (n, 3) on all triangles, nowhere farther apart than about ``spacing`` mm, and the triangle of each.
 
     They lie in rows along the longest side, so that slim triangles get no more than they need.
