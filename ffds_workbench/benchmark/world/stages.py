@@ -62,7 +62,7 @@ def register(folder: Path) -> None:
 
 
 def judge(folder: Path) -> None:
-    """What the written file is worth, as it reads back."""
+    """Judge the written file as it is read back."""
     settings, made, built = _job(folder)[1], _made(folder), json.loads((folder / REGISTERED).read_text())["built"]
     floor = _FLOOR_SIGMAS * settings.sigma * settings.scale + _FLOOR_SIZE * made["size"]
     row = judging.judge(Part.read(made["nominal_path"]), folder / built, _truth(folder),
