@@ -2161,6 +2161,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
+      <source>Write .brep or .FCStd, which store the shape as it is.</source>
+      <translation>Schreiben Sie .brep oder .FCStd, die die Form speichern, wie sie ist.</translation>
+    </message>
+    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
     </message>
