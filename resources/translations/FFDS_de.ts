@@ -1789,8 +1789,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
-      <source>The registration did not converge (the last step was {0} mm): the scan does not hold the part; align it first, or freeze faces.</source>
-      <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
+      <source>The registration did not converge (the last step moved {0} by {1} mm): the scan does not hold the part; align it first, or freeze faces.</source>
+      <translation>Die Registrierung kam zu keinem Ende (der letzte Schritt bewegte {0} um {1} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
       <source>The registration leaves {0} off its scan points, by {1} mm where the noise is {2} mm: align the scan better, or register the face by itself (--face {3}).</source>
