@@ -193,13 +193,13 @@ def test_programs_hold_the_seams_within_their_limits_unless_all_are_asked_for(to
     assert [bool(seam.exceeded(plan.limits)) for seam in plan.seams] == [edge == edges[1] for edge in sorted(
         edges, key=lambda name: int(name[4:]))]
     notes = write_seams(plan, [tmp_path / "a.src", tmp_path / "a.csv"])
-    assert notes[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    assert notes[0] == f"Beyond their limits, and therefore left out of the programs: {edges[1]} (lateral, normal)."
     points = np.array([point for point, _ in read_krl(*((tmp_path / f"a.{kind}").read_text() for kind in (
         "src", "dat")))])
     assert points[1:-1, 2] == pytest.approx(0.0, abs=1e-3)
     assert {row["seam"] for row in csv.DictReader((tmp_path / "a.csv").open())} == {"1", "2"}
     notes = write_seams(plan, [tmp_path / "all.src"], RobotSettings(keep_failing=True))
-    assert notes[0] == f"Beyond their limits, and in the programs all the same: {edges[1]} (lateral, normal)."
+    assert notes[0] == f"Beyond their limits, but included in the programs: {edges[1]} (lateral, normal)."
     assert len(read_krl(*((tmp_path / f"all.{kind}").read_text() for kind in ("src", "dat")))) > len(points)
     none = plan_seams(built, edges[1:], nominal=nominal)
     with pytest.raises(RefusedError, match="no program was written"):

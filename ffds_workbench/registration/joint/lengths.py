@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lengths of one solve, found once: everything that has a unit of length and is no property of the shape."""
+"""The lengths of one solve, computed once: everything with a unit of length that is not a property of the shape."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -59,6 +59,11 @@ class Lengths:
     def point(self) -> float:
         """Standard deviation of a point about the part at the end."""
         return max(self.noise, self.reach * _CLEAN)
+
+    @property
+    def border_margin(self) -> float:
+        """Distance from a border that points of the face keep: the neighbour's have their feet nearer to it."""
+        return NOISE_ENDS_SIGMAS * self.border
 
     @property
     def farthest_noise(self) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from ..motions import apply, best_fit
-from .data import Correspondence, correspond, make_frames
+from .data import Correspondence, correspond
 from .iteration import EdgeCache, PointCache, State
 from .joint_result import JointRegistration, SolidMotion
 from .prior_trust import is_isometric, observed_strain
@@ -36,7 +36,7 @@ _LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
 
 
 def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
-    """Small faces that still wander while the scan holds the part: they are torn between two places in it."""
+    """Small faces that keep moving while the rest of the part has settled: they fit the scan in two places."""
     if state.face_steps is None or state.last_step <= problem.lengths.not_converged:
         return ()
     wandering = state.face_steps > _TORN_STEP * state.last_step
@@ -46,7 +46,7 @@ def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
 
 
 def refuse_unsound(problem: Problem, state: State) -> None:
-    """Raise RefusedError where the result cannot be honest."""
+    """Raise RefusedError where the result cannot be trusted."""
     inside = problem.cells.inside
     position = problem.cells.nominal.position[inside]
     jet = problem.cells.displaced(problem.lattices, state.control_points, 3)
@@ -66,7 +66,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
     if state.last_step > problem.lengths.not_converged:
         name = "the part" if state.face_steps is None else problem.part.faces[int(state.face_steps.argmax())].name
         raise RefusedError(f"The registration did not converge (the last step moved {name} by {state.last_step:.2f} "
-                           "mm): the scan does not hold the part; align it first, or freeze faces.")
+                           "mm): the scan does not constrain the part; align it first, or freeze faces.")
     _refuse_off_scan(problem, state)
     normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
@@ -79,7 +79,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
 
 
 def _refuse_off_scan(problem: Problem, state: State) -> None:
-    """Raise RefusedError where a face is covered by scan points and lies far off them: they were not followed."""
+    """Raise RefusedError where scan points cover a face that lies far off them."""
     noise = problem.lengths.noise
     before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), problem.lengths.reach).height))
     found = _all_matched(problem, state.control_points, problem.lengths.reach)
@@ -99,8 +99,7 @@ def _refuse_off_scan(problem: Problem, state: State) -> None:
 def _all_matched(problem: Problem, control_points: Array, reach: float) -> Correspondence:
     """All points of the sample within ``reach`` mm of a shape, before any is weighed."""
     jet = problem.cells.displaced(problem.lattices, control_points)
-    return correspond(problem.sample, make_frames(problem.lattices, problem.cells, jet, problem.margin,
-                                                  problem.distance), reach)
+    return correspond(problem.sample, problem.frames(jet), reach)
 
 
 def _rotated_normals(problem: Problem, position: Array, normal: Array) -> Array:
@@ -123,7 +122,7 @@ def _solid_motion(problem: Problem, position: Array, solid: Index) -> SolidMotio
 
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
-    """The result; its bands and flags are found when they are asked for."""
+    """The result; its bands and flags are computed at first use."""
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     displacements = tuple(problem.lattices.spline(index, state.control_points)
                           for index in range(len(problem.part.faces)))

@@ -2,8 +2,8 @@
 """The joint solve: scan points pull the displacement lattices of all faces of a part at once.
 
 One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's steps
-3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned
-in order.
+3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned step
+by step.
 """
 from __future__ import annotations
 
@@ -48,8 +48,8 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     scan : (n, 3) points in mm, in the frame of the part
     settings : weights and schedule; the defaults suit parts of any size
     progress : called as ``progress("stage", fraction)``
-    scan_normals : (n, 3) unit normals that the scan brings, zero where it has none; they tell the skins of thin sheets
-        apart, and are left aside where they contradict each other or the part
+    scan_normals : (n, 3) unit normals of the scan, zero where it has none; they distinguish the skins of thin sheets,
+        and are ignored where they contradict each other or the part
 
     Raises
     ------
@@ -106,7 +106,7 @@ def _run_soft_stages(problem: Problem, steps: tuple[Stage, ...], state: State, r
 
 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
+    """A soft stage. A sheet that can follow the scan without stretching is assumed not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):
@@ -127,12 +127,14 @@ def run_stage(problem: Problem, stage: Stage, state: State,
     if stage.soft:
         cache = replace(cache, matrices=cache.matrices.renewed_thickness(problem, state.control_points), body=None)
     state = replace(state, cache=cache)
-    for _ in range(stage.iterations):
+    for number in range(stage.iterations):
         before, judged = state, update_prior_trust(problem, state, stage)
         if not promising(judged):
             return judged
         state = gauss_newton_step(problem, stage, judged)
         loosening = state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
+        if number == 0 and stage.all_points and not stage.body:
+            continue  # what it moves by is what other points say, not how far the shape is from settling
         if state.last_step < stage.enough and not (stage.all_points and loosening and _misfits_scan(problem, state)):
             break
         if stage.soft and not stage.all_points and not loosening and state.last_step > _SHRINKS * before.last_step:

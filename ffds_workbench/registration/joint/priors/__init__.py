@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is assumed where the scan says nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
+"""What is assumed where the scan shows nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
 edges, poles, thickness, edge angles, frozen faces), `shared_edges` (the places along them), `sheet_pairs` (the two
-skins of a sheet), `contacts` (touching solids), `trust_factors` (how far each prior counts), `constant_rows` (their
-rows that are the same at every shape), `free_motions` (along which nothing is known of a solid, so that it stays).
+skins of a sheet), `contacts` (touching solids), `trust_factors` (how much each prior counts), `constant_rows` (their
+rows that are the same at every shape), `free_motions` (of a solid within its own surface).
 """
 from .constant_rows import ConstantRows, constant_rows
 from .contacts import contact_rows
@@ -10,9 +10,9 @@ from .couplings import Couplings, make_couplings, pose_weight
 from .free_motions import FreeMotions, find_free_motions
 from .shared_edges import SharedEdgePlaces, directions
 from .sheet_pairs import find_pairs, parameters
-from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
+from .stiffness import COMPONENTS, SLIDING, Stiffness, make_stiffness
 from .trust_factors import PriorTrust
 
-__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "ConstantRows", "Couplings", "FreeMotions", "PriorTrust",
-           "SharedEdgePlaces", "Stiffness", "constant_rows", "contact_rows", "directions", "find_free_motions",
+__all__ = ["COMPONENTS", "SLIDING", "ConstantRows", "Couplings", "FreeMotions", "PriorTrust", "SharedEdgePlaces",
+           "Stiffness", "constant_rows", "contact_rows", "directions", "find_free_motions",
            "find_pairs", "make_couplings", "make_stiffness", "parameters", "pose_weight"]
