@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command ``./ffds weld``: the whole way from a scan to the robot's program, with one page that shows each step."""
+"""The command ``./ffds weld``: from a scan to the robot's program, with one page that shows each step."""
 from __future__ import annotations
 
 import argparse

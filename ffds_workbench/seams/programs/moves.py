@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The moves that weld a seam, in no dialect yet: down to it, along it, and away."""
+"""The moves that weld a seam, independent of any dialect: down to it, along it, and away."""
 from __future__ import annotations
 
 import math
