@@ -1462,6 +1462,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Sentence</name>
     <message>
+      <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source> (its {0} rows are not finite numbers)</source>
       <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
     </message>
@@ -1524,6 +1532,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
       <translation>ABB-Steuerungen benennen Werkzeuge und Basen ({0}): Geben Sie einen Namen oder X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>AS names its frames: give a name or X,Y,Z,A,B,C instead of {0}.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>Aligning the scan</source>
@@ -1930,8 +1942,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Ursprung der Scankoordinaten liegt innerhalb des Scans, dort stand also kein Sensor: Geben Sie an, wo er stand (--view X,Y,Z).</translation>
     </message>
     <message>
-      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
-      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) oder .FCStd.</translation>
+      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
@@ -2006,12 +2018,24 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Das Programm hat keine Lagen mit X, Y und Z.</translation>
     </message>
     <message>
+      <source>The program {0} cannot be read: {1}.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The program {0} is in a language that is not read here: use .ls, .jbi or .as.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
+      <source>The program {0} moves to {1}, which it does not have.</source>
+      <translation type="unfinished" />
+    </message>
+    <message>
       <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
       <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
-      <source>The registration did not converge (the last step was {0} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
-      <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
+      <source>The registration did not converge (the last step moved {0} by {1} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
+      <translation>Die Registrierung kam zu keinem Ende (der letzte Schritt bewegte {0} um {1} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
       <source>The registration leaves {0} off its scan points, by {1} mm where the noise is {2} mm: align the scan better, or register the face by itself (--face {3}).</source>
@@ -2398,6 +2422,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
+      <source>Write .brep or .FCStd, which store the shape as it is.</source>
+      <translation>Schreiben Sie .brep oder .FCStd, die die Form speichern, wie sie ist.</translation>
+    </message>
+    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
     </message>
@@ -2504,6 +2532,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
       <translation>{0} kann nicht zugleich verformt und fixiert werden: Streichen Sie die Fläche aus einer der beiden Listen.</translation>
+    </message>
+    <message>
+      <source>{0} controllers number their {1}s: give a number or X,Y,Z,A,B,C instead of '{2}'.</source>
+      <translation type="unfinished" />
     </message>
     <message>
       <source>{0} does not have the faces and edges of {1}: recompute it first.</source>
