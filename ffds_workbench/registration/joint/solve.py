@@ -84,9 +84,9 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 def _fit(problem: Problem, steps: tuple[Stage, ...], report: Progress) -> State:
     """The shape after all stages, from the nominal one."""
     nominal = start(problem)
-    sides, told = candidate_outward_normals(problem)                       # which side of a sheet each point shows
+    sides, by_normals = candidate_outward_normals(problem)                 # which side of a sheet each point shows
     fits = [_run_stiff_stages(problem, steps, replace(nominal, outward=side), len(sides) > 1) for side in sides]
-    state = choose_skin(problem, fits, told)                               # the skin: cost, walls, normals, movement
+    state = choose_skin(problem, fits, by_normals)                         # the skin: cost, walls, normals, movement
     for number, stage in enumerate(steps):
         if stage.soft:
             report("joint solve", number / len(steps))
