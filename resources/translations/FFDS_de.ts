@@ -1463,11 +1463,11 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <name>Sentence</name>
     <message>
       <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
-      <translation type="unfinished" />
+      <translation>	W = {0} deg,	P = {1} deg,	R = {2} deg</translation>
     </message>
     <message>
       <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
-      <translation type="unfinished" />
+      <translation>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</translation>
     </message>
     <message>
       <source> (its {0} rows are not finite numbers)</source>
@@ -1535,7 +1535,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>AS names its frames: give a name or X,Y,Z,A,B,C instead of {0}.</source>
-      <translation type="unfinished" />
+      <translation>AS benennt seine Koordinatensysteme: einen Namen oder X,Y,Z,A,B,C statt {0} angeben.</translation>
     </message>
     <message>
       <source>Aligning the scan</source>
@@ -1943,7 +1943,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.</source>
-      <translation type="unfinished" />
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) oder .FCStd verwenden.</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
@@ -2019,15 +2019,15 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The program {0} cannot be read: {1}.</source>
-      <translation type="unfinished" />
+      <translation>Das Programm {0} lässt sich nicht lesen: {1}.</translation>
     </message>
     <message>
       <source>The program {0} is in a language that is not read here: use .ls, .jbi or .as.</source>
-      <translation type="unfinished" />
+      <translation>Das Programm {0} ist in einer Sprache, die hier nicht gelesen wird: .ls, .jbi oder .as verwenden.</translation>
     </message>
     <message>
       <source>The program {0} moves to {1}, which it does not have.</source>
-      <translation type="unfinished" />
+      <translation>Das Programm {0} fährt nach {1}, das es nicht hat.</translation>
     </message>
     <message>
       <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
@@ -2535,7 +2535,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>{0} controllers number their {1}s: give a number or X,Y,Z,A,B,C instead of '{2}'.</source>
-      <translation type="unfinished" />
+      <translation>Steuerungen von {0} nummerieren ihre {1}s: eine Nummer oder X,Y,Z,A,B,C statt „{2}“ angeben.</translation>
     </message>
     <message>
       <source>{0} does not have the faces and edges of {1}: recompute it first.</source>

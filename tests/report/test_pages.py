@@ -11,7 +11,7 @@ import pytest
 
 from ffds_workbench import RESOURCES, api
 from ffds_workbench.errors import InputError
-from ffds_workbench.report.lone_points import lone_points
+from ffds_workbench.report.maps.lone_points import lone_points
 from ffds_workbench.report.pages.html_file import THREE
 
 LARGEST = 5_000_000

@@ -16,8 +16,8 @@ from ...brep.simulated_scan import edge_points
 from ...objects.as_built import is_as_built
 from ...objects.scans import scan_points
 from ...registration.uv_raster import make_raster
-from ...report.coloured_faces import corner_values, corners, surface_grid
-from ...report.lone_points import lone_points
+from ...report.maps.coloured_faces import corner_values, corners, surface_grid
+from ...report.maps.lone_points import lone_points
 from ...report.statistics import statistics
 from .. import running
 from ..preferences import preferences

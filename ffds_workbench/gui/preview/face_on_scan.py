@@ -16,7 +16,7 @@ from ...registration.face_geometry import FaceGeometry
 from ...registration.footpoints import SurfaceCoordinates, surface_coordinates
 from ...registration.splines import SplineSurface
 from ...registration.uv_raster import Raster, make_raster
-from ...report.coloured_faces import at_corners, corners, surface_grid
+from ...report.maps.coloured_faces import at_corners, corners, surface_grid
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

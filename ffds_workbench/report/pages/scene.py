@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ...registration.arrays import Array
 from ...registration.face_geometry import FaceGeometry
 from ...registration.uv_raster import Raster, make_raster
-from ..coloured_faces import corner_values, corners, surface_grid
+from ..maps.coloured_faces import corner_values, corners, surface_grid
 from ..deviation import FaceDeviation
-from ..lone_points import lone_points
+from ..maps.lone_points import lone_points
 
 _CELLS = 36_000
 """Of the whole mesh: a page stays below five megabytes with the library that turns it."""

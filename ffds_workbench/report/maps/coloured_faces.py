@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..registration.footpoints import surface_coordinates
-from ..registration.uv_raster import Raster
+from ...registration.footpoints import surface_coordinates
+from ...registration.uv_raster import Raster
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]

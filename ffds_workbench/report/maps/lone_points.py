@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..registration.arrays import Array
+from ...registration.arrays import Array
 
 _NEIGHBOURS = 8
 _FARTHER = 4.0
