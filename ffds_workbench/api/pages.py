@@ -15,7 +15,7 @@ from ..report.pages.content import content
 from ..report.pages.html_file import html_text
 from ..report.pages.pdf_file import write_pdf
 from ..report.pages.pictures import picture
-from ..report.pages.scene import Scene, make_scene
+from ..report.pages.scene import ColouredPart, make_scene
 from ..report.picture import side_of
 from .destinations import destinations
 from .registering import Result
@@ -64,6 +64,6 @@ def _direction(side: Sequence[float]) -> np.ndarray:
     return np.asarray(side, dtype=float) / length
 
 
-def _scene(result: Result) -> Scene:
+def _scene(result: Result) -> ColouredPart:
     built = [built_geometry(result.part, index, face) for index, face in enumerate(result.shape.Faces)]
     return make_scene(built, result.deviations, result.scan.points, list(edge_points(result.shape, _ALONG_EDGE)))

@@ -13,7 +13,7 @@ import numpy as np
 from ... import RESOURCES
 from ..picture import COLOURS
 from .content import FACE_HEADS, Content, Rows
-from .scene import Scene
+from .scene import ColouredPart
 
 VIEWER = RESOURCES / "report" / "viewer.js"
 THREE = Path("/usr/share/javascript/three")
@@ -36,7 +36,7 @@ img { width: 100%; border: 1px solid #dfe3e8; margin-bottom: .6rem }
 """
 
 
-def html_text(said: Content, scene: Scene, pictures: Sequence[bytes]) -> str:
+def html_text(said: Content, scene: ColouredPart, pictures: Sequence[bytes]) -> str:
     """The whole file.
 
     Parameters
@@ -62,7 +62,7 @@ def html_text(said: Content, scene: Scene, pictures: Sequence[bytes]) -> str:
     return "\n".join(part for part in parts if part) + "\n"
 
 
-def _viewer(scene: Scene) -> str:
+def _viewer(scene: ColouredPart) -> str:
     try:
         library = "".join(f"<script>{(THREE / name).read_text('utf-8')}</script>\n" for name in _PARTS)
     except OSError:
@@ -77,7 +77,7 @@ def _viewer(scene: Scene) -> str:
             f"<script>{VIEWER.read_text('utf-8')}</script>")
 
 
-def _data(scene: Scene) -> str:
+def _data(scene: ColouredPart) -> str:
     """The scene as the viewer reads it: numbers as base64, deviations in parts of the scale."""
     middle = 0.5 * (scene.points.min(axis=0) + scene.points.max(axis=0))
     step = 8.0 * scene.limit / 32767

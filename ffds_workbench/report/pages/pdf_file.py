@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ...registration.arrays import Array
 from .content import FACE_HEADS, Content, Rows
 from .pictures import draw
-from .scene import Scene
+from .scene import ColouredPart
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,7 +25,7 @@ _INK, _GOOD, _DOUBTFUL = "#1d2733", "#2e7d43", "#b3401f"
 _COLUMNS = (0.0, 0.15, 0.25, 0.34, 0.44, 0.59, 0.68, 0.82, 0.91)
 
 
-def write_pdf(path: Path, said: Content, scene: Scene, sides: Sequence[Array]) -> None:
+def write_pdf(path: Path, said: Content, scene: ColouredPart, sides: Sequence[Array]) -> None:
     """Write it: the verdict with pictures from the ``sides``, (3,) each towards the viewer, then the tables."""
     from matplotlib.backends.backend_pdf import PdfPages
     from matplotlib.figure import Figure

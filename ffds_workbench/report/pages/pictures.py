@@ -9,7 +9,7 @@ import numpy as np
 
 from ...registration.arrays import Array
 from ..picture import COLOURS, axes_towards
-from .scene import Scene
+from .scene import ColouredPart
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,7 +20,7 @@ _MOST_TRIANGLES = 40_000
 _STATES = (("before", "Nominal part"), ("after", "As-built part"))
 
 
-def picture(scene: Scene, towards: Array) -> bytes:
+def picture(scene: ColouredPart, towards: Array) -> bytes:
     """A PNG of the map before and after, seen from a side.
 
     Parameters
@@ -38,8 +38,8 @@ def picture(scene: Scene, towards: Array) -> bytes:
     return memory.getvalue()
 
 
-def draw(figure: Figure, scene: Scene, towards: Array, box: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
-         ) -> None:
+def draw(figure: Figure, scene: ColouredPart, towards: Array,
+         box: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)) -> None:
     """Draw the map before and after, with its scale, into a box (left, bottom, width, height) of a figure."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -57,7 +57,7 @@ def draw(figure: Figure, scene: Scene, towards: Array, box: tuple[float, float, 
     bar.ax.tick_params(labelsize=8)
 
 
-def _draw_state(axes: Axes, scene: Scene, values: Array, view: Array, scale: object) -> None:
+def _draw_state(axes: Axes, scene: ColouredPart, values: Array, view: Array, scale: object) -> None:
     from matplotlib.collections import LineCollection, PolyCollection
 
     seen = scene.points @ view.T

@@ -21,7 +21,7 @@ _FEWEST_CELLS, _CELLS_PER_FACE = 64, 4096
 
 
 @dataclass(frozen=True)
-class Scene:
+class ColouredPart:
     """A mesh and its lines, in mm.
 
     Attributes
@@ -58,7 +58,7 @@ def _means(raster: Raster, scan: Array, item: FaceDeviation, kept: NDArray[np.bo
 
 
 def make_scene(built: Sequence[FaceGeometry], states: Sequence[Sequence[FaceDeviation]], scan: Array,
-               edges: Sequence[Array]) -> Scene:
+               edges: Sequence[Array]) -> ColouredPart:
     """The mesh of as-built faces.
 
     Parameters
@@ -87,5 +87,5 @@ def make_scene(built: Sequence[FaceGeometry], states: Sequence[Sequence[FaceDevi
     everything = np.concatenate(points)
     used, inverse = np.unique(np.concatenate(triangles), return_inverse=True)
     before, after = (np.concatenate(found)[used] for found in values)
-    return Scene(everything[used], inverse.reshape(-1, 3), before, after, np.concatenate(face_of),
+    return ColouredPart(everything[used], inverse.reshape(-1, 3), before, after, np.concatenate(face_of),
                  tuple(face.name for face in built), edges)
