@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from ..motions import apply, best_fit
-from .data import Correspondence, correspond, make_frames
+from .data import Correspondence, correspond
 from .iteration import EdgeCache, PointCache, State
 from .joint_result import JointRegistration, SolidMotion
 from .prior_trust import is_isometric, observed_strain
@@ -64,8 +64,9 @@ def refuse_unsound(problem: Problem, state: State) -> None:
         raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({problem.size:.0f} mm): "
                            "align the scan first.")
     if state.last_step > problem.lengths.not_converged:
-        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
-                           "does not constrain the part; align it first, or freeze faces.")
+        name = "the part" if state.face_steps is None else problem.part.faces[int(state.face_steps.argmax())].name
+        raise RefusedError(f"The registration did not converge (the last step moved {name} by {state.last_step:.2f} "
+                           "mm): the scan does not constrain the part; align it first, or freeze faces.")
     _refuse_off_scan(problem, state)
     normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
@@ -98,8 +99,7 @@ def _refuse_off_scan(problem: Problem, state: State) -> None:
 def _all_matched(problem: Problem, control_points: Array, reach: float) -> Correspondence:
     """All points of the sample within ``reach`` mm of a shape, before any is weighed."""
     jet = problem.cells.displaced(problem.lattices, control_points)
-    return correspond(problem.sample, make_frames(problem.lattices, problem.cells, jet, problem.margin,
-                                                  problem.distance), reach)
+    return correspond(problem.sample, problem.frames(jet), reach)
 
 
 def _rotated_normals(problem: Problem, position: Array, normal: Array) -> Array:
