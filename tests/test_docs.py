@@ -83,10 +83,12 @@ def test_refusals_in_the_faq_are_refusals():
             assert any(piece.strip(" :") in text for text in texts), row
 
 
-RUN = [ROOT / "README.md", *sorted((ROOT / "resources" / "docs").rglob("*.md"))]
-ELSEWHERE = {"security.md", "theory.md", "performance.md", "glossary.md", "index.md", "gallery.md", "series.md"}
-"""Nothing to run, or run by others: the gallery's commands by `resources/scripts/gallery.py`, the same as here but for
-the edges of the bracket; those of series by `tests/series/test_series.py`."""
+ELSEWHERE = {"gallery.md", "robot.md", "series.md"}
+"""Pages of resources/docs whose blocks others run: the gallery's `resources/scripts/gallery.py`, the same commands as here
+but for the edges of the bracket; the others' `tests/robot` and `tests/series`, on parts that have what they need."""
+RUN = [page for page in PAGES if page != ROOT / "CONTRIBUTING.md"
+       and str(page.relative_to(ROOT)) not in {f"resources/docs/{name}" for name in ELSEWHERE}
+       and re.search(r"^```(?:sh|python)$", page.read_text("utf-8"), re.MULTILINE)]
 
 
 @pytest.fixture
@@ -113,7 +115,7 @@ def workplace(plate, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("page", [page for page in RUN if page.name not in ELSEWHERE], ids=_name)
+@pytest.mark.parametrize("page", RUN, ids=_name)
 def test_what_the_pages_say_runs(page, workplace):
     import FreeCAD
 
