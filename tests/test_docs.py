@@ -85,7 +85,7 @@ def test_refusals_in_the_faq_are_refusals():
 
 ELSEWHERE = {"gallery.md", "robot.md", "series.md"}
 """Pages of resources/docs whose blocks others run: the gallery's `resources/scripts/gallery.py`, the same commands as
-here but for the edges of the bracket; the others' `tests/robot` and `tests/series`, on parts that have what they need."""
+here but for the edges of the bracket; the others' `tests/robot` and `tests/series`, on parts that have it."""
 RUN = [page for page in PAGES if page != ROOT / "CONTRIBUTING.md"
        and str(page.relative_to(ROOT)) not in {f"resources/docs/{name}" for name in ELSEWHERE}
        and re.search(r"^```(?:sh|python)$", page.read_text("utf-8"), re.MULTILINE)]
