@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The certificate of a written file: what it reads back as, beside the nominal shape."""
+"""The certificate of a written file: the shape that is read back, compared with the nominal one."""
 from __future__ import annotations
 
 from dataclasses import dataclass

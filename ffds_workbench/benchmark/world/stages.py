@@ -72,7 +72,7 @@ def _write(model: api.Model, result: api.Result, folder: Path) -> dict[str, str]
 
 
 def judge(folder: Path) -> None:
-    """What the written file is worth, as it reads back."""
+    """Judge the written file as it is read back."""
     settings, made, built = _job(folder)[1], _made(folder), json.loads((folder / REGISTERED).read_text())["built"]
     floor = _FLOOR_SIGMAS * settings.sigma * settings.scale + _FLOOR_SIZE * made["size"]
     row = judging.judge(Part.read(made["nominal_path"]), folder / built, _truth(folder),

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stores a shape so that its STEP file reads back with the same numbers.
 
-Edges and vertices are numbered as the walk through faces and loops meets them. A STEP file says less than a shape: no
-edge lists its end before its start, and a loop that runs against its face is turned round where OCCT's reader mends
-something in it, be it a pcurve that ends a hair off its vertex (``ShapeFix_Face`` makes the wire anew, FORWARD, with
-its edges in the other order). So the loops of every free-form face are stored along the face, begun so that the edges
-that they meet first keep their order; where no beginning does that, the surface is turned, and with it the sense of its
-loops. An edge is turned where its vertices, both met there first, would change places.
+Edges and vertices are numbered in the order in which a walk through faces and loops meets them. A STEP file holds less
+than a shape: no edge lists its end before its start, and a loop that runs against its face is reversed where OCCT's
+reader repairs something in it, be it a pcurve that ends a hair off its vertex (``ShapeFix_Face`` makes the wire anew,
+FORWARD, with its edges in the other order). So the loops of every free-form face are stored along the face, begun so
+that the edges that they meet first keep their order; where no beginning does that, the surface is turned, and with it
+the sense of its loops. An edge is turned where its vertices, both met there first, would change places.
 """
 from __future__ import annotations
 
