@@ -19,6 +19,7 @@ from .inspect.show_deviation import ShowDeviation
 from .inspect.show_result import ShowResult
 from .learn.first_steps import FirstSteps
 from .learn.load_example import LoadExample
+from .learn.show_documentation import ShowDocumentation
 from .scan.align_by_points import AlignByPoints
 from .scan.align_scan import AlignScan
 from .scan.import_scan import ImportScan
@@ -32,7 +33,7 @@ GROUPS = {"Scan": (ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoin
           "Deform": (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
           "Inspect": (ShowResult, ShowDeviation, ExportReport),
           "Weld": (FindSeams, ExportProgram, AddTrajectory),
-          "Learn": (FirstSteps, LoadExample)}
+          "Learn": (FirstSteps, LoadExample, ShowDocumentation)}
 """By the title of their submenu and toolbar, which the window translates in the context "Workbench"."""
 COMMANDS = tuple(command for group in GROUPS.values() for command in group)
 CONTEXT = [command.NAME for command in (
