@@ -25,7 +25,7 @@ Progress = Callable[[str], object]
 
 
 @dataclass(frozen=True)
-class Piece:
+class SeamPiece:
     """A part of a seam that is welded at once, all of it as a rule.
 
     Attributes
@@ -57,7 +57,7 @@ class PlannedSeam:
 
     seam: MeasuredSeam
     path: SeamPath
-    pieces: tuple[Piece, ...] = ()
+    pieces: tuple[SeamPiece, ...] = ()
     welding: Welding | None = None
     searches: tuple[Search, ...] = ()
 
@@ -195,7 +195,7 @@ def _one(seam: MeasuredSeam, moving: Moving, cell: Cell, settings: RobotSettings
         if away[0] is None or away[1] is None:
             station, what = (first, "approach to") if away[0] is None else (last, "retract from")
             return failed(Failure(station, "approach", f"the {what} station {station + 1} is not free"))
-        pieces.append(Piece(first, last, away[0], away[1]))
+        pieces.append(SeamPiece(first, last, away[0], away[1]))
     return PlannedSeam(seam, path, tuple(pieces), welding, searches)
 
 

@@ -32,7 +32,7 @@ USUAL_TOLERANCE = 0.5
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """Up to a gap in mm: the speed in mm/s, and what the templates write; ``values`` holds job and weave."""
 
     gap: float
@@ -53,12 +53,12 @@ class Process:
     templates : dialect, then event, then the lines to write
     """
 
-    tables: Sequence[tuple[frozenset[str], tuple[Row, ...]]]
+    tables: Sequence[tuple[frozenset[str], tuple[TableRow, ...]]]
     tolerance: float
     stitch: tuple[float, float] | None
     templates: Mapping[str, Mapping[str, Sequence[str]]]
 
-    def rows_for(self, kind: str) -> tuple[Row, ...]:
+    def rows_for(self, kind: str) -> tuple[TableRow, ...]:
         """The table for a joint ("T", "pipe", …), empty where there is none."""
         kinds = set(kind.split("+"))
         fitting = [rows for joints, rows in self.tables if joints & kinds or "any" in joints]
@@ -76,7 +76,7 @@ class Welding:
     refused : stations from and to, and why
     """
 
-    rows: tuple[Row, ...]
+    rows: tuple[TableRow, ...]
     row: Index
     refused: tuple[tuple[int, int, str], ...]
 
@@ -138,7 +138,7 @@ def _number(entry: Mapping[str, Any], key: str, what: str) -> float:
     return float(value)
 
 
-def _table(entry: object) -> tuple[frozenset[str], tuple[Row, ...]]:
+def _table(entry: object) -> tuple[frozenset[str], tuple[TableRow, ...]]:
     _check_keys(entry, ("joint", "rows"), "process's table")
     assert isinstance(entry, Mapping)
     joints = entry.get("joint", "any")
@@ -149,7 +149,7 @@ def _table(entry: object) -> tuple[frozenset[str], tuple[Row, ...]]:
     return frozenset([joints] if isinstance(joints, str) else map(str, joints)), tuple(found)
 
 
-def _row(entry: object) -> Row:
+def _row(entry: object) -> TableRow:
     _check_keys(entry, _ROW, "process's row")
     assert isinstance(entry, Mapping)
     speed = _number(entry, "speed", "row")
@@ -158,7 +158,7 @@ def _row(entry: object) -> Row:
         raise InputError("A row of the process must name a job: the number of the schedule to weld with.")
     weave = entry.get("weave", {})
     _check_keys(weave, _WEAVE, "process's weave")
-    return Row(_number(entry, "gap", "row"), speed, {"job": entry["job"], "speed": speed, **weave}, bool(weave))
+    return TableRow(_number(entry, "gap", "row"), speed, {"job": entry["job"], "speed": speed, **weave}, bool(weave))
 
 
 def welding_of(process: Process, seam: MeasuredSeam) -> Welding:
@@ -222,21 +222,21 @@ def search_lines(dialect: str, lines: Mapping[str, Sequence[str]], number: int, 
     return _filled(dialect, lines, "search", values)
 
 
-def _beginning(dialect: str, lines: Mapping[str, Sequence[str]], rows: Sequence[Row], row: int) -> list[str]:
+def _beginning(dialect: str, lines: Mapping[str, Sequence[str]], rows: Sequence[TableRow], row: int) -> list[str]:
     if row < 0:
         return []
     return [*_written(dialect, lines, "arc_on", rows[row]),
             *(_written(dialect, lines, "weave_on", rows[row]) if rows[row].weaves else [])]
 
 
-def _ending(dialect: str, lines: Mapping[str, Sequence[str]], rows: Sequence[Row], row: int) -> list[str]:
+def _ending(dialect: str, lines: Mapping[str, Sequence[str]], rows: Sequence[TableRow], row: int) -> list[str]:
     if row < 0:
         return []
     return [*(_written(dialect, lines, "weave_off", rows[row]) if rows[row].weaves else []),
             *_written(dialect, lines, "arc_off", rows[row])]
 
 
-def _written(dialect: str, lines: Mapping[str, Sequence[str]], event: str, row: Row) -> list[str]:
+def _written(dialect: str, lines: Mapping[str, Sequence[str]], event: str, row: TableRow) -> list[str]:
     return _filled(dialect, lines, event, row.values)
 
 
