@@ -842,7 +842,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan liegt nicht auf {name}: Prüfen Sie Einheit und Ausrichtung, oder wählen Sie eine andere Fläche.</translation>
     </message>
     <message>
-      <source>The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the scan, or undo and align it by three points.</source>
+      <source>The scan fits the part equally well in {count} poses, and nothing shows which one is right. Look at the scan, or undo and align it by three points.</source>
       <translation>Der Scan passt in {count} Lagen gleich gut auf das Teil, und nichts verrät, welche richtig ist. Sehen Sie sich den Scan an, oder machen Sie es rückgängig und richten Sie ihn mit drei Punkten aus.</translation>
     </message>
     <message>
@@ -1550,7 +1550,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>AS names its frames: give a name or X,Y,Z,A,B,C instead of {0}.</source>
-      <translation>AS benennt seine Koordinatensysteme: einen Namen oder X,Y,Z,A,B,C statt {0} angeben.</translation>
+      <translation>AS benennt seine Koordinatensysteme: Geben Sie einen Namen oder X,Y,Z,A,B,C statt {0} an.</translation>
     </message>
     <message>
       <source>Aligning the scan</source>
@@ -1958,7 +1958,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.</source>
-      <translation>Die Ausgabe {0} hat ein unbekanntes Format: .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) oder .FCStd verwenden.</translation>
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) oder .FCStd.</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
@@ -2034,15 +2034,15 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>The program {0} cannot be read: {1}.</source>
-      <translation>Das Programm {0} lässt sich nicht lesen: {1}.</translation>
+      <translation>Das Programm {0} kann nicht gelesen werden: {1}.</translation>
     </message>
     <message>
       <source>The program {0} is in a language that is not read here: use .ls, .jbi or .as.</source>
-      <translation>Das Programm {0} ist in einer Sprache, die hier nicht gelesen wird: .ls, .jbi oder .as verwenden.</translation>
+      <translation>Das Programm {0} ist in einer Sprache, die hier nicht gelesen wird: Nehmen Sie .ls, .jbi oder .as.</translation>
     </message>
     <message>
       <source>The program {0} moves to {1}, which it does not have.</source>
-      <translation>Das Programm {0} fährt nach {1}, das es nicht hat.</translation>
+      <translation>Das Programm {0} fährt nach {1}, das darin fehlt.</translation>
     </message>
     <message>
       <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
@@ -2550,7 +2550,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
       <source>{0} controllers number their {1}s: give a number or X,Y,Z,A,B,C instead of '{2}'.</source>
-      <translation>Steuerungen von {0} nummerieren ihre {1}s: eine Nummer oder X,Y,Z,A,B,C statt „{2}“ angeben.</translation>
+      <translation>Steuerungen von {0} nummerieren ihre {1}s: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{2}“ an.</translation>
     </message>
     <message>
       <source>{0} does not have the faces and edges of {1}: recompute it first.</source>
