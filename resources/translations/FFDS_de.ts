@@ -153,6 +153,10 @@
       <translation>Der Bericht als JSON</translation>
     </message>
     <message>
+      <source>The seams that come into the programs, in their order; none: all within their limits</source>
+      <translation>Die Nähte, die in die Programme kommen, in ihrer Reihenfolge; keine: alle innerhalb ihrer Grenzen</translation>
+    </message>
+    <message>
       <source>Weld in the other direction</source>
       <translation>In der anderen Richtung schweißen</translation>
     </message>
@@ -324,8 +328,16 @@
       <translation>Prüfung für Boolesche Operationen: {verdict}.</translation>
     </message>
     <message>
+      <source>Choose seams</source>
+      <translation>Nähte wählen</translation>
+    </message>
+    <message>
       <source>Choose what shall be done first.</source>
       <translation>Wählen Sie zuerst, was geschehen soll.</translation>
+    </message>
+    <message>
+      <source>Colours</source>
+      <translation>Farben</translation>
     </message>
     <message>
       <source>Colours on</source>
@@ -542,6 +554,10 @@ Parts touch where they are nearer to each other than (mm):</source>
 Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
+      <source>No seam is ticked: tick those that the robot is to weld.</source>
+      <translation>Keine Naht ist angehakt: diejenigen anhaken, die der Roboter schweißen soll.</translation>
+    </message>
+    <message>
       <source>Noise</source>
       <translation>Rauschen</translation>
     </message>
@@ -552,6 +568,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Normals, towards the eye</source>
       <translation>Normalen, zum Auge hin</translation>
+    </message>
+    <message>
+      <source>One colour runs into the next, or a few with borders between them, or nothing but within the tolerance, above and below it</source>
+      <translation>Eine Farbe geht in die nächste über, oder wenige mit Grenzen dazwischen, oder nur innerhalb der Toleranz, darüber und darunter</translation>
     </message>
     <message>
       <source>One point every {before} mm, now {after} mm. Light blue stays, red goes.</source>
@@ -714,6 +734,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Scans</translation>
     </message>
     <message>
+      <source>Seam</source>
+      <translation>Naht</translation>
+    </message>
+    <message>
       <source>Seams</source>
       <translation>Nähte</translation>
     </message>
@@ -792,6 +816,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Stiffness</source>
       <translation>Steifigkeit</translation>
+    </message>
+    <message>
+      <source>T</source>
+      <translation>T</translation>
     </message>
     <message>
       <source>Table of stations (*.csv)</source>
@@ -874,6 +902,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Dieses Teil wird durch den Link {link} gezeigt: Wählen Sie es, wo es selbst steht, oder machen Sie eine einfache Kopie des Links.</translation>
     </message>
     <message>
+      <source>Ticked seams come into the programs, in this order: drag them. A click shows the seam.</source>
+      <translation>Angehakte Nähte kommen in die Programme, in dieser Reihenfolge: ziehen zum Umordnen. Ein Klick zeigt die Naht.</translation>
+    </message>
+    <message>
       <source>To the left the faces follow the scan more closely, to the right they stay smoother</source>
       <translation>Nach links folgen die Flächen dem Scan enger, nach rechts bleiben sie glatter</translation>
     </message>
@@ -888,6 +920,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Universal Robots program (*.script)</source>
       <translation>Universal-Robots-Programm (*.script)</translation>
+    </message>
+    <message>
+      <source>Weld seams</source>
+      <translation>Schweißnähte</translation>
     </message>
     <message>
       <source>Weld seams…</source>
@@ -946,6 +982,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>über einer Grenze</translation>
     </message>
     <message>
+      <source>beyond: {names}</source>
+      <translation>außerhalb: {names}</translation>
+    </message>
+    <message>
       <source>blue</source>
       <translation>blau</translation>
     </message>
@@ -958,6 +998,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>überbrückt</translation>
     </message>
     <message>
+      <source>butt</source>
+      <translation>Stumpf</translation>
+    </message>
+    <message>
       <source>carried</source>
       <translation>mitgeführt</translation>
     </message>
@@ -966,12 +1010,40 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Fremdes</translation>
     </message>
     <message>
+      <source>corner</source>
+      <translation>Ecke</translation>
+    </message>
+    <message>
+      <source>edge</source>
+      <translation>Kante</translation>
+    </message>
+    <message>
       <source>from</source>
       <translation>aus</translation>
     </message>
     <message>
+      <source>gap</source>
+      <translation>Spalt</translation>
+    </message>
+    <message>
       <source>in {direction}</source>
       <translation>in {direction}</translation>
+    </message>
+    <message>
+      <source>joint</source>
+      <translation>Stoß</translation>
+    </message>
+    <message>
+      <source>lap</source>
+      <translation>Überlapp</translation>
+    </message>
+    <message>
+      <source>lateral</source>
+      <translation>seitlich</translation>
+    </message>
+    <message>
+      <source>longitudinal</source>
+      <translation>längs</translation>
     </message>
     <message>
       <source>matched</source>
@@ -980,6 +1052,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>mean</source>
       <translation>Mittel</translation>
+    </message>
+    <message>
+      <source>mm</source>
+      <translation>mm</translation>
     </message>
     <message>
       <source>near the part</source>
@@ -998,6 +1074,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Soll</translation>
     </message>
     <message>
+      <source>normal</source>
+      <translation>Höhe</translation>
+    </message>
+    <message>
       <source>normals</source>
       <translation>Normalen</translation>
     </message>
@@ -1006,12 +1086,28 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>nichts zu vergleichen</translation>
     </message>
     <message>
+      <source>opening</source>
+      <translation>Öffnung</translation>
+    </message>
+    <message>
+      <source>pass or fail</source>
+      <translation>gut oder schlecht</translation>
+    </message>
+    <message>
       <source>pick faces in the 3D view</source>
       <translation>Flächen in der 3D-Ansicht wählen</translation>
     </message>
     <message>
+      <source>pipe</source>
+      <translation>Rohr</translation>
+    </message>
+    <message>
       <source>red</source>
       <translation>rot</translation>
+    </message>
+    <message>
+      <source>rotation</source>
+      <translation>Drehung</translation>
     </message>
     <message>
       <source>scan</source>
@@ -1024,6 +1120,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>single points</source>
       <translation>einzelne Punkte</translation>
+    </message>
+    <message>
+      <source>smooth</source>
+      <translation>stufenlos</translation>
     </message>
     <message>
       <source>table</source>
@@ -1040,6 +1140,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>thinned</source>
       <translation>ausgedünnt</translation>
+    </message>
+    <message>
+      <source>verdict</source>
+      <translation>Urteil</translation>
     </message>
     <message>
       <source>within all limits</source>
@@ -1060,6 +1164,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{count} points: mean {mean} mm, 95 % below {p95} mm, largest {max} mm, signed mean {signed} mm</source>
       <translation>{count} Punkte: Mittel {mean} mm, 95 % unter {p95} mm, größte {max} mm, Mittel mit Vorzeichen {signed} mm</translation>
+    </message>
+    <message>
+      <source>{count} steps</source>
+      <translation>{count} Stufen</translation>
     </message>
     <message>
       <source>{names} cannot be computed on {part} and still refer to {source}.</source>
@@ -2541,8 +2649,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} lässt sich nicht mit sich selbst vergleichen: Wählen Sie das Nennteil, oder keines.</translation>
     </message>
     <message>
-      <source>{0} cannot be computed on {1}: nothing was re-pointed.</source>
-      <translation>{0} lässt sich auf {1} nicht berechnen: Nichts wurde umgehängt.</translation>
+      <source>{0} cannot be computed on {1}, and nothing was re-pointed: {2}.</source>
+      <translation>{0} lässt sich auf {1} nicht berechnen, und nichts wurde umgehängt: {2}.</translation>
     </message>
     <message>
       <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
@@ -2595,6 +2703,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} has no object with faces.</source>
       <translation>{0} hat kein Objekt mit Flächen.</translation>
+    </message>
+    <message>
+      <source>{0} has no seam {1}: its panel lists those it has.</source>
+      <translation>{0} hat keine Naht {1}: Ihr Fenster listet die vorhandenen auf.</translation>
     </message>
     <message>
       <source>{0} has no shape: select a part or its faces.</source>

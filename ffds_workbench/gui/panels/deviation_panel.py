@@ -24,13 +24,16 @@ from ..preferences import preferences
 from ..qt import QtWidgets, number_of
 from ..selection import parts_shown, scans_of
 from ..translating import tr
-from ..view3d.colours import good_limit, packed_colours
+from ..view3d.colours import PASS_FAIL, SMOOTH, good_limit, packed_colours
 from ..view3d.overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from ..widgets import Form, choice, length, named, wrapped
 from .closing import Closing
 from .legend import Legend
 
 Array = NDArray[np.float64]
+
+_STEPS = (7, 13)
+"""Of a stepped scale: odd, so that what is near zero has one colour."""
 
 _PART_TRANSPARENCY = 0.6
 """Of the parts while the scan carries the colours."""
@@ -71,17 +74,23 @@ class DeviationPanel:
         self._tolerance = length("FfdsTolerance", preferences().tolerance, 1e4,
                                  tr("Deviations up to this are shown in one green; 0: none"))
         self._tolerance.setSingleStep(limit / 20)
+        self._steps = choice("FfdsSteps", [
+            (tr("smooth"), SMOOTH), *((tr("{count} steps").format(count=count), count) for count in _STEPS),
+            (tr("pass or fail"), PASS_FAIL)], tr(
+                "One colour runs into the next, or a few with borders between them, or nothing but within the "
+                "tolerance, above and below it"))
         self._legend = named(Legend(), "FfdsLegend")
         self._figures, self._cursor = wrapped("FfdsFigures"), wrapped("FfdsCursor")
         column = QtWidgets.QVBoxLayout(self.form)
         rows = QtWidgets.QFormLayout()
         for label, widget in ((tr("State"), self._state), (tr("Colours on"), self._on), (tr("Range ±"), self._limit),
-                              (tr("Tolerance ±"), self._tolerance)):
+                              (tr("Tolerance ±"), self._tolerance), (tr("Colours"), self._steps)):
             rows.addRow(label, widget)
         column.addLayout(rows)
         for widget in (self._figures, self._legend, self._cursor):
             column.addWidget(widget)
-        for widget in (self._state, self._on):
+        self._steps.currentIndexChanged.connect(self._demand_tolerance)
+        for widget in (self._state, self._on, self._steps):
             widget.currentIndexChanged.connect(self._show)
         for widget in (self._limit, self._tolerance):
             widget.valueChanged.connect(self._show)
@@ -101,11 +110,11 @@ class DeviationPanel:
         kept = ~self._lone[index]
         values = self._values = values[kept]
         self._points = item.scan.points[index[kept]]
-        limit, tolerance = max(self._limit.value(), 1e-6), self._tolerance.value()
+        scale = max(self._limit.value(), 1e-6), self._tolerance.value(), self._steps.currentData()
         if self._on.currentData() == "scan":
-            nodes = [points_node(self._points, packed_colours(values, limit, tolerance))]
+            nodes = [points_node(self._points, packed_colours(values, *scale))]
         else:
-            nodes = [mesh_node(points, triangles, packed_colours(means, limit, tolerance), over=False)
+            nodes = [mesh_node(points, triangles, packed_colours(means, *scale), over=False)
                      for points, triangles, means in self._coloured_faces(item)]
             nodes.append(lines_node(list(edge_points(item.model.shape, 40))))
         self._overlay.show(nodes)
@@ -114,8 +123,8 @@ class DeviationPanel:
         if self._on.currentData() == "scan":  # else points inside the material are hidden, the others are not
             self._overlay.fade([item for item in self._shown if item is not self._scan], _PART_TRANSPARENCY)
         self._overlay.cover(self._scan, *[self._part] if self._on.currentData() == "part" else [])
-        self._legend.show_deviations(values, limit, tolerance)
-        self._figures.setText(_figures_text(values, tolerance, len(kept) - len(values)))
+        self._legend.show_deviations(values, *scale)
+        self._figures.setText(_figures_text(values, scale[1], len(kept) - len(values)))
         self._cursor.setText(tr("Point at the part to read the deviation there."))
 
     def _coloured_faces(self, item: api.Deviation) -> list[tuple[Array, Array, Array]]:
@@ -131,6 +140,11 @@ class DeviationPanel:
                 points = geometry.surface.on_grid(*corners(raster)).reshape(-1, 3)
                 self._meshes[name].append((points, surface_grid(raster), means))
         return self._meshes[name]
+
+    def _demand_tolerance(self, *_: Any) -> None:
+        """Pass or fail needs a tolerance: a fifth of the range where none is set."""
+        if self._steps.currentData() == PASS_FAIL and not self._tolerance.value():
+            self._tolerance.setValue(self._limit.value() / 5)
 
     def _moved(self, event: dict) -> None:
         """The mouse moved in the view: read the deviation of the foremost scan point under it."""

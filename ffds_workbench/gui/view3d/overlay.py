@@ -186,6 +186,11 @@ def lines_node(lines: Sequence[Array]) -> Any:
     return _lines(coin.SoSeparator(), lines, (0.1, 0.1, 0.12), 1.5)
 
 
+def bright_node(line: Array) -> Any:
+    """A polyline (k, 3) in mm that is meant, in front of everything."""
+    return _lines(coin.SoAnnotation(), [line], AFTER, 6.0)
+
+
 def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:
     """Control lattices before and after: their rows and columns as lines, their control points as points."""
     if not lattices:

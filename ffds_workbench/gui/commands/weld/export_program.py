@@ -40,7 +40,7 @@ class ExportProgram(Command):
 
     def run(self) -> None:
         """Ask for a file and write it."""
-        from ....objects.seams import job_of, robot_of
+        from ....objects.seams import chosen_plan, job_of, robot_of
         from ....seams.output.writing import PROGRAMS
 
         item = selected_seams()
@@ -50,7 +50,7 @@ class ExportProgram(Command):
         if not path:
             return
         path += "" if Path(path).suffix else _formats().get(kind, ".src")
-        plan = in_background(tr("Measuring the seams"), job_of(item).run)
+        plan = chosen_plan(item, in_background(tr("Measuring the seams"), job_of(item).run))
         keep_failing = False
         if Path(path).suffix.lower() in PROGRAMS:
             keep_failing = asked_for_failing(plan, robot_of(item))
