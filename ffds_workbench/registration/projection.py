@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Closest points on a spline surface, or on one with a displacement, to rounding: where the last digit counts.
+"""Closest points on a spline surface, with or without a displacement, exact to rounding.
 
-For registration itself `footpoints` is fast and exact enough.
+Registration itself uses `footpoints`, which are faster and exact enough.
 """
 from __future__ import annotations
 
@@ -15,9 +15,13 @@ from .splines import SplineSurface
 from .uv_raster import dot
 
 _CHUNK = 20000
+"""Points that are projected together (unit: memory)."""
 _SEED_POINTS = 96
+"""Places per direction that the steps start from (unit: time)."""
 _NEWTON_STEPS = 25
+"""Steps at the most (theory: Newton's double their digits; damped ones take a few more)."""
 _CONVERGED_STEP = 1e-9
+"""Movement in mm below which the steps end (theory: far below any tolerance, above rounding)."""
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from .arrays import Array
 from .face_geometry import FaceGeometry
 
 _ON_BOUNDARY = 1e-7
+"""Of the range, or in mm: what is nearer to a boundary lies on it (theory: far above rounding)."""
 
 
 def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
@@ -18,7 +19,7 @@ def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
 
     Parameters
     ----------
-    u, v : increasing parameters in the face's range; a node on the very side of the range counts as just inside it
+    u, v : increasing parameters in the face's range; a node exactly on the border of the range counts as just inside it
 
     Notes
     -----

@@ -20,11 +20,14 @@ from .trims import boundary_points, inside_trims
 Index = NDArray[np.intp]
 
 _LEAST_CELLS, _LARGEST_CELLS = 16, 256
+"""Cells per direction of a face, at least and at the most (unit: time)."""
 _LARGEST_TURN = 0.12
-"""Largest turn of the normal along a cell in rad: the surface is taken as quadratic within one."""
+"""Largest turn of the normal along a cell in rad (theory: the surface is then quadratic within one, to 4e-5 of its
+radius)."""
 _AFFINE_TOLERANCE = 1e-6
+"""In mm: a surface this near to an affine one is affine (theory: far below any tolerance, above rounding)."""
 DEEP = 3.0
-"""Distances from the trims are known up to this, in mm."""
+"""Distances from the trims are known up to this, in mm (theory: no margin is larger)."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,7 @@ class Raster:
 
     @cached_property
     def table(self) -> Array:
-        """What a foot point needs of its cell, one row each, (20, m·n): position, principal directions, normal,
+        """What the foot points of a cell need, one column per cell, (20, m·n): position, principal directions, normal,
         curvatures, steps in cells per mm along the principal directions (x by 1, x by 2, y by 1, y by 2), the centre's
         x and y."""
         gram = np.stack([dot(self.tangent_u, self.tangent_u), dot(self.tangent_u, self.tangent_v),

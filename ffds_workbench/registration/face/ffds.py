@@ -20,14 +20,19 @@ from .face_result import FaceRegistration
 from .neighbours import nearest_neighbours
 
 REACH = 10.0
-"""Farther from the nominal than this (mm), a scan point is not taken for the face's own."""
+"""Points of the scan farther from the nominal face than this, in mm, are not the face's own (unit: parts of some
+decimetres warp by less)."""
 
 SMALLEST_SINGULAR_VALUE = 1e-6
+"""Of the pseudo-inverses, over the largest one (theory: what is smaller multiplies the noise by a million)."""
 _LEAST_COVERAGE = 0.1
+"""Share of the source points that need a neighbour within reach (unit: with fewer the scan shows something else)."""
 _FINEST_LATTICE = 10
+"""Control points per direction with which the automatic choice begins (theory: the paper's lattice)."""
 _LARGEST_OVERSHOOT, _FIRM_OVERSHOOT = 4.0, 2.5
-"""Ratio of control point to source point displacement above which a lattice counts as undetermined, and up to which the
-automatic choice takes it. A cubic through a full grid stays below 2, or a little above where most of it is noise."""
+"""Displacement of control points over that of source points, above which a lattice counts as undetermined, and up to
+which the automatic choice takes one. Without holes it stays below 2 for a cubic, or a little above where most of it is
+noise (calibrated: by hand, on faces with holes of the families of ``./ffds benchmark accuracy``)."""
 
 
 class UndeterminedError(RefusedError):
@@ -47,8 +52,8 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
         determine
     source_points : number of points of the equidistant grid on the face, rounded to a square; those in holes drop out
     reach : mm; the share of source points with a neighbour nearer than this is the coverage
-    overshoot : how many times as far as the source points control points may move; infinity takes what the paper's
-        algorithm gives
+    overshoot : largest displacement of control points over that of source points; infinity accepts whatever the
+        paper's algorithm gives
 
     Raises
     ------
@@ -123,7 +128,7 @@ def lattice_basis(control: ControlLattice, u: Array, v: Array) -> Array:
 
 
 def pseudo_inverse(matrix: Array) -> Array:
-    """Moore–Penrose inverse; directions that the source points hardly see are left at rest."""
+    """Moore–Penrose inverse; directions that the source points hardly determine are left at rest."""
     return np.asarray(np.linalg.pinv(matrix, rcond=SMALLEST_SINGULAR_VALUE))
 
 
@@ -162,7 +167,8 @@ def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: NDArray[np.boo
 
 def _check_determined(face: FaceGeometry, control: ControlLattice, control_points: Array, moves: Array,
                       overshoot: float) -> None:
-    """Control points that go much farther than any source point hang over holes, held by hardly anything."""
+    """Refuse a lattice some of whose control points move much farther than any source point: over holes, hardly
+    anything determines them."""
     farthest, asked = (float(np.linalg.norm(points, axis=1).max()) for points in (control_points, moves))
     if farthest > overshoot * asked:
         rows, columns = control.unknown.shape

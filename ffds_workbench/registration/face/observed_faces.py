@@ -18,15 +18,20 @@ from .robust_fit import dense_layers
 Index = NDArray[np.intp]
 
 REACH = 10.0
+"""Largest distance in mm of a point from its face (unit: parts of some decimetres warp by less)."""
 LEAST_COVERAGE = 0.5
+"""Share of a face that has to be covered for it to count as observed (unit: most of it)."""
 _LEAST_POINTS = 30
+"""Points of a face that is observed (theory: twice the control points of the smallest lattice, nearly)."""
 _SAMPLE_SIZE = 40000
+"""Scan points that are looked at (unit: time)."""
 _RASTER_CELLS = 1024
+"""Cells of a face (unit: time)."""
 
 
 @dataclass(frozen=True)
 class _FaceCandidate:
-    """A face, and the layers of the sampled scan points that lie over it and face its way.
+    """A face, and the layers of the sampled scan points that lie over it and have its normals.
 
     Attributes
     ----------
@@ -65,10 +70,10 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 
     Notes
     -----
-    Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the
-    nearest face, each layer to the one that owns most of its points. The face with the least of its area under layers
-    of its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a
-    sheet that moved inwards by more than half the thickness is not taken for the other skin.
+    Along the normals of a face, the points with matching normals form layers, block by block. Each point belongs to the
+    nearest face, each layer to the face that owns most of its points. The face with the smallest share of its area
+    under its own layers is dropped and its points go to the next nearest, until all remaining faces are covered. So the
+    skin of a sheet that moved inwards by more than half the thickness is not mistaken for the other skin.
     """
     if len(scan) > _SAMPLE_SIZE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE_SIZE, replace=False)]

@@ -3,8 +3,8 @@
 
 Scan points are expressed once as foot point and height over the nominal face. From then on every step works on the
 raster: the residuals of each cell's points are averaged with Tukey weights, and the control lattice takes the
-displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the
-wider the gate.
+displacement that explains the cells with the least bending energy. Trust is earned step by step: the stiffer the field,
+the wider the gate.
 """
 from __future__ import annotations
 
@@ -26,9 +26,14 @@ from .robust_fit import (MAIN_PATCHES, PROVEN, FacePoints, Layers, RasterFit, Ro
 from .scan_coverage import covered_share
 
 _LEAST_POINTS, _LEAST_FITTED = 30, 20
+"""Points near the face without which nothing is fitted, and points that have to agree on one surface (theory: twice,
+and just above, the control points of the smallest lattice)."""
 _RASTER_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
+"""Cells of a face, and cells for each control point of a fine lattice (unit: time; theory: four cells determine a
+bicubic span's own control point)."""
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
-"""Where more than the first share of the layers are walls, normals are computed for at most this many points."""
+"""Where walls make up more than the first share of the layers, normals are computed to tell them apart, of at most the
+second number of points (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark accuracy``; unit: time)."""
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,
@@ -56,9 +61,9 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     _check_lattice(face, fit, points, lattice is None)
     state, noise, gate = fit.moved(rigid_start(raster, layers)), layers.noise, settings.reach
     trust = trust_all(layers)
-    for stage in settings.schedule:                                               # trust is earned in order:
+    for stage in settings.schedule:                                               # trust is earned step by step:
         begins = stage.trusts != trust.name
-        if begins and stage.trusts == MAIN_PATCHES:                               # in what hangs together,
+        if begins and stage.trusts == MAIN_PATCHES:                               # in connected layers,
             trust = trust_main_patches(raster, layers, *fit.look(state, layers, gate))
         elif begins:                                                              # then in what lies on its surface
             residual, weights = fit.look(state, layers, gate)

@@ -2,8 +2,8 @@
 """The joint solve: scan points pull the displacement lattices of all faces of a part at once.
 
 One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's steps
-3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned
-in order.
+3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned step
+by step.
 """
 from __future__ import annotations
 
@@ -28,13 +28,14 @@ from .surfaces import JointPart, close_seams
 Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
 """While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
-times the last one: shapes follow it slowly."""
+times the last one: shapes follow it slowly (calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 _SHRINKS = 0.9
 """The first soft stage, which finds how far priors are trusted, ends when that has settled and a step is larger than
-this times the last one: what goes on moving is held by priors alone, and those are trusted more again in the next."""
+this times the last one: what still moves is held by priors alone, and those gain trust again in the next stage
+(calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 _NO_MORE_STIFF_STAGES = 0.5
 """If a stiff stage ends with a step smaller than this many times the scatter of the points about a stiff shape, the
-remaining ones are skipped."""
+remaining ones are skipped (unit: time)."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,
@@ -47,8 +48,8 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     scan : (n, 3) points in mm, in the frame of the part
     settings : weights and schedule; the defaults suit parts of any size
     progress : called as ``progress("stage", fraction)``
-    scan_normals : (n, 3) unit normals that the scan brings, zero where it has none; they tell the skins of thin sheets
-        apart, and are left aside where they contradict each other or the part
+    scan_normals : (n, 3) unit normals of the scan, zero where it has none; they distinguish the skins of thin sheets,
+        and are ignored where they contradict each other or the part
 
     Raises
     ------
@@ -105,7 +106,7 @@ def _run_soft_stages(problem: Problem, steps: tuple[Stage, ...], state: State, r
 
 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
+    """A soft stage. A sheet that can follow the scan without stretching is assumed not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The rigid pose that a few picked pairs of points ask for: where an alignment may start."""
+"""The rigid pose from a few picked pairs of points, from which an alignment can start."""
 from __future__ import annotations
 
 import numpy as np
@@ -9,9 +9,10 @@ from ..arrays import Array
 from ..motions import best_fit
 
 _COLLINEAR = 0.05
-"""Points this near to a line, as a share of their spread along it, leave the turn about it open."""
+"""Points this near to a line, as a share of their spread along it, leave the turn about it open (unit)."""
 _SIDE_TOLERANCE = 0.25
-"""Sides of the two triangles may differ by this share of the longest: scans are deformed, and picks are by hand."""
+"""Sides of the two triangles may differ by this share of the longest (unit: scans are deformed, and picks are by
+hand)."""
 
 
 def pose_of_pairs(on_scan: Array, on_model: Array) -> Array:

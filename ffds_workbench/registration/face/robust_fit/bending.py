@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Bending energy of a displacement field on a surface: what a deformation costs where the scan says nothing.
+"""Bending energy of a displacement field on a surface: the penalty of a deformation where the scan says nothing.
 
 On a plane it is ∫ d_uu² + 2 d_uv² + d_vv² over the physical area. On a curved surface the second derivatives are
-covariant, and the turning of the normal is taken out, so that moving the face as a rigid body costs nothing.
+covariant, and the rotation of the normal is removed, so that moving the face as a rigid body costs nothing.
 """
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from .normal_equations import NormalMatrix, grid_products, offset_products
 
 _ORDERS = ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 _LEAST_NODES = 16
+"""Gauss points per direction of a face at least (theory: two per span integrate a cubic's bending; more where spans are
+few and the surface is curved)."""
 
 
 def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: NormalMatrix) -> tuple[Array, Array]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The scan points of a face: a sample for the steps that need no more, and all of them, piece by piece.
 
-Where they are many they are not kept but located anew, so that memory does not grow with the scan.
+Many points are not kept but located anew in each step, so that memory does not grow with the scan.
 """
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from ...footpoints import Locator, SurfaceCoordinates, joined, located, make_loc
 from ...uv_raster import Raster
 
 _MOST_KEPT = 150_000
+"""Foot points that are kept in memory; those of larger scans are located anew in every step (unit: memory)."""
 _DRAWN = 2
-"""The sample is drawn from this many times as many scan points."""
+"""The sample is drawn from this many times as many scan points (unit: half of a scan lies off the face)."""
 
 
 @dataclass(frozen=True)

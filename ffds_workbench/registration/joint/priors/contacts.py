@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where solids of an assembly touch: what nothing observes of one (a pipe about its axis) follows its neighbour."""
+"""Where solids of an assembly touch: a motion that nothing observes (a pipe about its axis) follows the neighbour."""
 from __future__ import annotations
 
 import numpy as np
@@ -13,6 +13,7 @@ from .sheet_pairs import parameters
 _CONTACT_GAP = 4e-4
 """Over the size of a solid: what lies nearer to it touches it (unit: twice as much as parts are made to fit)."""
 _WITHIN_CELL = 0.75
+"""Sizes of a cell from its centre within which places belong to it (theory: as of the scan's points)."""
 
 
 def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid, sizes: Array) -> csr_matrix:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which skin of a sheet the scan shows, where it was fitted to either: what is seen of the walls between them tells,
-and what the fits cost.
+"""Which skin of a sheet the scan shows, given a fit to each: decided by the cost of the fits and by what is seen of the
+walls between the skins.
 """
 from __future__ import annotations
 
@@ -16,23 +16,24 @@ from ..surfaces import normals
 
 # What is clearly less is a judgement (unit), tried on the sheets of tests/registration/test_joint_shapes.py.
 _COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
-"""The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
-standard deviations away, 3² in chi-square units."""
+"""The fit to one skin is right if it costs less than this factor times the other (calibrated: by hand, on the sheets of
+tests/registration/test_joint_shapes.py). A point left out counts as one three standard deviations away, 3² in
+chi-square units (theory)."""
 _WALL_POINTS, _WALL_RATIO = 50, 3
-"""Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
-times the other fit's, plus the first."""
+"""Otherwise the fit is right that explains clearly more points on the walls beside the skins: more than the second
+number times the other fit's, plus the first (calibrated: as above)."""
 _MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
-"""Else the fit that moved less is right if its movement is below the first factor times the other's. Above it this is a
-guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other moved
-less by the first factor, with such wide bands if it moved less by the second."""
+"""Otherwise the fit that moved less is right if its movement is below the first factor times the other's. Above it this
+is a guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other
+moved less by the first factor, with such wide bands if it moved less by the second (calibrated: as above)."""
 
 
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
-    Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
-    did not move far more. Without them the one that moved less is a guess, with bands as wide as the sheet is thick,
-    unless it moved far less.
+    If neither costs nor walls decide, the first is right if the scan's normals ``told`` it and it did not move far
+    more. Without normals the one that moved less is a guess, with bands as wide as the sheet is thick, unless it moved
+    far less.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
 
 
 def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
-    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
+    """Evidence for a fit: its cost in chi-square units, how many points of the sample are matched, how many
     scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)

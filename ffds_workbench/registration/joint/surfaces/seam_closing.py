@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Makes the ends of lattices exact where a surface meets itself: one displacement at a pole, the same along a seam.
+"""Closes lattices exactly where a surface meets itself: one displacement at a pole, the same on both sides of a seam.
 
-The solve leaves about 1e-3 mm there, and neighbours cannot close what one face disagrees with itself about.
+The solve leaves gaps of about 1e-3 mm there, which no correction from neighbouring faces can close.
 """
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from .lattices import FaceLattice, Lattices
 from .part import JointPart, SharedEdge
 
 _ON_SIDE = 1e-6
+"""Of the range: parameters nearer to a side of it lie on it (theory: far above rounding)."""
 
 
 def close_seams(part: JointPart, lattices: Lattices, control_points: Array) -> Array:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How many spans the displacement of every face needs, from the size of its solid and from its own shape.
 
-A solid deforms as one: the lengths over which its displacement changes go with its size, not with that of its faces. A
-tube of 1 m needs a dozen spans along it and one across, a clip of 10 mm as many as a bracket of 100 mm.
+A solid deforms as a whole: the lengths over which its displacement changes follow its size, not that of its faces. A
+tube of 1 m needs a dozen spans along and one across, a clip of 10 mm as many as a bracket of 100 mm.
 """
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from ...face_geometry import FaceGeometry
 LEAST_CLOSED_SPANS = 8
 """On a direction that closes on itself. *theory*: four follow how a ring moves and turns, eight how it becomes oval."""
 _PROBES_PER_SIDE = 17
+"""Places per direction at which a face is measured (theory: lengths of arcs are right to 1 %)."""
 _MOST_TURN = 0.5 * np.pi
 """Largest turn of the normal over a span, in rad. *theory*: cubics follow a quarter of a circle, not half of one."""
 _SPARE = 0.25

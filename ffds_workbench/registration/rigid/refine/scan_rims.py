@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a scan ends along the part's rims: what holds it in the directions that its surfaces leave free."""
+"""Where a scan ends along the part's rims: this constrains it in the directions that its surfaces leave free."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -14,7 +14,8 @@ from ..model import Rims
 from ..settings import RimSettings
 
 _EITHER_SIDE = 2
-"""Stretches on either side that one is compared with: a stray point or a hole shows in a single one."""
+"""Stretches on either side that one is compared with: a stray point or a hole shows in a single one (theory: a median
+of five)."""
 
 
 @dataclass(frozen=True)
