@@ -4,7 +4,7 @@
 A band is the half width of a 95 % interval at a place; it does not say which places err together. What noise does
 reaches as far as a control point; what the registration leaves at borders, in gaps and to its priors reaches along the
 whole face. So half of the variance is drawn as B-splines with as many control points as the face's displacement has,
-and half as a shift, tilts and a twist of the whole face, of the size that the bands tell in all.
+and half as motions and growth of the whole face, of the size that the bands tell in all.
 """
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ _FACE_QUANTILE, _EDGE_QUANTILE = 1.96, 2.4477
 _EDGE_CONTROLS = 11
 """Theory: a lattice has some eleven spans over a part's size."""
 _LEAST_CONTROLS = 4
+_SAME_MOTION = 1e-3
+"""Motions that differ by less than this, of the largest, are one on a face."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +47,9 @@ class KnownErrors:
         """Whether a face or edge was not measured: the report has no band of it."""
         return self.entries is not None and self.entries.get(name, {}).get("band") is None
 
-    def of_face(self, name: str, uv: Array, box: tuple[float, float, float, float], normals: Array) -> ErrorField:
-        """Errors of points (n, 3) of a face along their normals, at parameters (n, 2) in a box (u0, u1, v0, v1)."""
+    def of_face(self, name: str, uv: Array, box: tuple[float, float, float, float], points: Array,
+                normals: Array) -> ErrorField:
+        """Errors of points (n, 3) of a face along their normals (n, 3), at parameters (n, 2) in (u0, u1, v0, v1)."""
         if self.entries is None or self.unknown(name):
             return no_errors(len(uv))
         entry = self.entries[name]
@@ -57,9 +60,8 @@ class KnownErrors:
             sigma = face.bands[cKDTree(face.uv / scale).query(uv / scale)[1]] / _FACE_QUANTILE
         counts = [max(_LEAST_CONTROLS, int(count)) for count in entry["lattice"] or (_LEAST_CONTROLS,) * 2]
         rows = [_rows(uv[:, axis], box[2 * axis], box[2 * axis + 1], counts[axis]) for axis in (0, 1)]
-        straight = [_straight(uv[:, axis], box[2 * axis], box[2 * axis + 1]) for axis in (0, 1)]
-        near, far = ((own[0][:, :, None] * own[1][:, None, :]).reshape(len(uv), -1) for own in (rows, straight))
-        return ErrorField(_mixed(near, far, sigma), normals[:, None, :])
+        near = (rows[0][:, :, None] * rows[1][:, None, :]).reshape(len(uv), -1)
+        return ErrorField(_mixed(near, _motions(points, normals), sigma), normals[:, None, :])
 
     def of_edge(self, name: str, fractions: Array, across: Array) -> ErrorField:
         """Errors of points (n, 3) of an edge at ``fractions`` (n,) along the two directions ``across`` it (n, 2, 3)."""
@@ -102,6 +104,15 @@ def _sized(basis: Array, sigma: Array) -> Array:
 def _straight(x: Array, start: float, end: float) -> Array:
     """A shift and a tilt over a range, (n, 2), of variance one on the mean."""
     return np.column_stack([np.ones(len(x)), np.sqrt(12.0) * ((x - start) / max(end - start, 1e-300) - 0.5)])
+
+
+def _motions(points: Array, normals: Array) -> Array:
+    """What rigid motions and growth of a face do along its normals: (n, k) columns of one size, across each other."""
+    off = points - points.mean(axis=0)
+    size = max(float(np.linalg.norm(off, axis=1).max()), 1e-300)
+    rows = np.column_stack([normals, np.cross(off / size, normals), np.ones(len(points))])
+    left, values, _ = np.linalg.svd(rows, full_matrices=False)
+    return np.asarray(left[:, values > _SAME_MOTION * values[0]])
 
 
 def _mixed(near: Array, far: Array, sigma: Array) -> Array:

@@ -67,7 +67,7 @@ class PartPair:
         kind, place, axis, radius, heights = _nominal_shape(self.nominal.faces[index].own_surface, nominal, below)
         normals = heights(points)[1]
         outward = _outward(kind, nominal, place, axis)
-        errors = self.known.of_face(name, uv, geometry.surface.range, normals)
+        errors = self.known.of_face(name, uv, geometry.surface.range, points, normals)
         sections = _sections(raster, axis) if kind == "cylinder" else ()
         seen = normals.mean(axis=0)
         if np.linalg.norm(seen) < 0.1:  # all around: seen from across
