@@ -23,7 +23,14 @@ from .registering import Result, run
 
 @dataclass(frozen=True)
 class InspectedPart:
-    """An inspection, and the registration that it rests on where there was a scan."""
+    """An inspected part.
+
+    Attributes
+    ----------
+    inspection : values and verdicts
+    nominal : the nominal model
+    result : the registration that it rests on, where there was a scan
+    """
 
     inspection: Inspection
     nominal: Model
@@ -57,14 +64,31 @@ def inspect(model: Model | Part.Shape | str | Path | object, scan: PointCloud | 
 def inspect_scan(request: RegistrationRequest, model: Model | Part.Shape | str | Path | object,
                  scan: PointCloud | np.ndarray | str | Path, plan: Plan | str | Path,
                  progress: Progress = lambda text: None) -> InspectedPart:
-    """Do what `inspect` is asked for, with a request at hand."""
+    """Do what `inspect` is asked for. Raises as it does.
+
+    Parameters
+    ----------
+    request : how the scan is registered
+    model, scan, plan, progress : as for `inspect`
+    """
     wanted = as_plan(plan)
     result = run(request, model, as_cloud(scan), progress)
     return inspect_result(result, wanted, progress)
 
 
 def inspect_result(result: Result, plan: Plan, progress: Progress = lambda text: None) -> InspectedPart:
-    """Hold a plan against a registration's result."""
+    """Hold a plan against a registration's result.
+
+    Parameters
+    ----------
+    result : what ``register`` gave
+    plan : what is to be inspected
+    progress : called with what is being done
+
+    Raises
+    ------
+    InputError : the plan does not go with the model
+    """
     faces = () if result.joint is None else result.joint.faces
     known = known_errors(result.figures, faces)
     return InspectedPart(inspect_shapes(plan, PartPair(result.part, workpiece.read(result.shape), known), progress),
@@ -94,6 +118,12 @@ def inspect_model(model: Model | Part.Shape | str | Path | object, as_built: Mod
 
 def write_inspected(found: InspectedPart, folder: Path, inputs: tuple[Path, ...] = ()) -> None:
     """Write an inspection, and the as-built model and report that it rests on, into a folder that exists.
+
+    Parameters
+    ----------
+    found : the inspection
+    folder : where to
+    inputs : files that were read and must not be written over
 
     Raises
     ------

@@ -2,8 +2,8 @@
 """Geometrical and dimensional characteristics of an as-built model against a plan, with the band of each.
 
 `plan` is what is to be inspected, `features` are the faces and edges as points with what is known of their errors.
-`zones` and `fits` are the mathematics, `datums` puts the part onto its datums, `frames` moves it. `characteristics` and
-`dimensions` make values of these, `inspect` the verdicts, and `output` the tables and the page.
+`zones` and `fits` are the mathematics, `datums` puts the part onto its datums, `frames` moves it. `blocks`,
+`characteristics` and `dimensions` make values of these, `inspect` the verdicts, and `output` the tables and the page.
 """
 from __future__ import annotations
 

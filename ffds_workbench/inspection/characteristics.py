@@ -6,17 +6,17 @@ those that its datums leave and all shifts, a profile and a position those that 
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..registration.arrays import Array, Index
-from .datums import DatumFrame, height_rows, on_datums
-from .features import Feature
+from .blocks import FEWEST_SECTION, block_of, joined
+from .datums import DatumFrame, on_datums
+from .features import InspectedFeature
 from .fits import fit_circle
 from .frames import FREE, SHIFTS, Frame
 from .plan import FORMS, ORIENTATIONS
@@ -25,25 +25,6 @@ from .zones import free_part, least_tube, least_zone
 _STEPS = 8
 _STILL = 1e-9
 """A zone has settled when it changes by less, in mm."""
-_FEWEST_SECTION = 8
-
-
-@dataclass(frozen=True)
-class Block:
-    """What has to lie in one zone, for a part where it lies now.
-
-    Attributes
-    ----------
-    residual : (n,) distances, or (n, 3) vectors from an axis or a curve, in mm
-    jacobian : (n, 6) or (n, 3, 6) their change with a motion
-    errors : ``(d, n', 3) -> (d, n)`` or ``(d, n, 3)``: their change with errors of the feature's points
-    even : (n,) which of them are spread evenly, for least squares
-    """
-
-    residual: Array
-    jacobian: Array
-    errors: Callable[[Array], Array]
-    even: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -74,8 +55,8 @@ class Errors:
     alone: bool
 
 
-def zone_value(kind: str, features: Sequence[Feature], datums: Sequence[Feature], start: Frame, count: int,
-               random: np.random.Generator) -> ZoneValue:
+def zone_value(kind: str, features: Sequence[InspectedFeature], datums: Sequence[InspectedFeature], start: Frame,
+               count: int, random: np.random.Generator) -> ZoneValue:
     """A characteristic of features against datums.
 
     Parameters
@@ -116,7 +97,7 @@ _MOST_THIN = 400
 """Points of a feature whose errors are drawn."""
 
 
-def _check(kind: str, features: Sequence[Feature]) -> None:
+def _check(kind: str, features: Sequence[InspectedFeature]) -> None:
     wanted = {"flatness": ("plane",), "straightness": ("line",), "roundness": ("cylinder", "circle"),
               "cylindricity": ("cylinder",), "profile_line": ("line", "circle", "curve"),
               "profile_surface": ("plane", "cylinder", "surface"), "position": ("plane", "cylinder", "circle", "line"),
@@ -126,7 +107,7 @@ def _check(kind: str, features: Sequence[Feature]) -> None:
             raise InputError(f"{feature.name} is a {feature.kind}: {kind} is of a {' or '.join(wanted)}.")
 
 
-def _mode(kind: str, feature: Feature) -> str:
+def _mode(kind: str, feature: InspectedFeature) -> str:
     if feature.is_edge and not (kind == "roundness"):
         return "tube"
     if feature.kind == "cylinder" and kind in ("position", *ORIENTATIONS):
@@ -134,11 +115,12 @@ def _mode(kind: str, feature: Feature) -> str:
     return "symmetric" if kind in ("profile_surface", "position") else "width"
 
 
-def _least(kind: str, features: Sequence[Feature], frame: Frame, free: Array, mode: str) -> tuple[float, Frame]:
+def _least(kind: str, features: Sequence[InspectedFeature], frame: Frame, free: Array, mode: str
+           ) -> tuple[float, Frame]:
     """The minimum zone; motions are finite, so that the linear problem is solved anew where the last answer lies."""
     width = np.inf
     for _ in range(_STEPS):
-        block = _joined([_block(kind, feature, frame) for feature in features])
+        block = joined([block_of(kind, feature, frame) for feature in features])
         if mode == "tube":
             new, motion = least_tube(block.residual, block.jacobian @ free)
         else:
@@ -150,11 +132,11 @@ def _least(kind: str, features: Sequence[Feature], frame: Frame, free: Array, mo
     return float(new), frame
 
 
-def _by_squares(kind: str, features: Sequence[Feature], frame: Frame, free: Array, mode: str,
+def _by_squares(kind: str, features: Sequence[InspectedFeature], frame: Frame, free: Array, mode: str,
                 added: Errors | None = None) -> Array:
     """Widths (d,) of the zones about what lies there by least squares; (1,) without draws."""
-    blocks = [_block(kind, feature, frame) for feature in features]
-    block = _joined(blocks)
+    blocks = [block_of(kind, feature, frame) for feature in features]
+    block = joined(blocks)
     count = len(block.residual)
     residual = block.residual.reshape(1, -1)
     jacobian = block.jacobian.reshape(residual.shape[1], 6)
@@ -173,101 +155,14 @@ def _by_squares(kind: str, features: Sequence[Feature], frame: Frame, free: Arra
     return np.asarray(np.ptp(left, axis=1))
 
 
-def _block(kind: str, feature: Feature, frame: Frame) -> Block:
-    if kind == "roundness":
-        return _circle_block(feature, frame)
-    if feature.kind == "cylinder" and kind in ("position", *ORIENTATIONS):
-        return _axis_block(feature, frame)
-    if feature.kind == "circle" and kind == "position":
-        return _centre_block(feature, frame)
-    if feature.is_edge:
-        return _curve_block(feature, frame)
-    residual, normals, jacobian = height_rows(feature, frame)
-    return Block(residual, jacobian, lambda errors: np.einsum("dnx,nx->dn", errors @ frame.rotation.T, normals),
-                 _even(feature))
-
-
-def _curve_block(feature: Feature, frame: Frame) -> Block:
-    assert feature.offsets is not None
-    moved = frame(feature.points)
-    residual, tangents = feature.offsets(moved)
-    across = np.eye(3) - tangents[:, :, None] * tangents[:, None, :]
-    return Block(residual, frame.vector_jacobian(moved, across),
-                 lambda errors: np.einsum("nxy,dny->dnx", across, errors @ frame.rotation.T), _even(feature))
-
-
-def _axis_block(feature: Feature, frame: Frame) -> Block:
-    """The centres of the sections of a cylinder, from its nominal axis."""
-    moved = frame(feature.points)
-    sections = [section for section in feature.sections if len(section) >= _FEWEST_SECTION]
-    if not sections:
-        raise InputError(f"{feature.name} has no sections across its axis: it is too small for its axis to be found.")
-    centres = np.stack([fit_circle(moved[section], feature.axis)[0] for section in sections])
-    rows = [_centre_rows(moved[own], feature.axis) for own in sections]
-    return _points_block(centres, feature, frame, rows, sections)
-
-
-def _centre_block(feature: Feature, frame: Frame) -> Block:
-    moved = frame(feature.points)
-    everything = np.arange(len(moved))
-    centre = fit_circle(moved, feature.axis)[0]
-    return _points_block(centre[None, :], feature, frame, [_centre_rows(moved, feature.axis)], [everything])
-
-
-def _points_block(centres: Array, feature: Feature, frame: Frame, rows: Sequence[Array], sections: Sequence[Index]
-                  ) -> Block:
-    across = np.eye(3) - np.outer(feature.axis, feature.axis)
-    projections = np.repeat(across[None], len(centres), axis=0)
-
-    def errors(drawn: Array) -> Array:
-        turned = drawn @ frame.rotation.T
-        return np.stack([np.einsum("xny,dny->dx", row, turned[:, section]) for row, section in zip(
-            rows, sections, strict=True)], axis=1)
-
-    return Block((centres - feature.place) @ across, frame.vector_jacobian(centres, projections), errors,
-                 np.ones(len(centres), dtype=bool))
-
-
-def _centre_rows(points: Array, axis: Array) -> Array:
-    """Change (3, n, 3) of a circle's centre with its points (n, 3), by least squares."""
-    centre, _ = fit_circle(points, axis)
-    flat = (points - centre) - ((points - centre) @ axis)[:, None] * axis
-    unit = flat / np.linalg.norm(flat, axis=1, keepdims=True)
-    rows = np.linalg.pinv(np.column_stack([unit, np.ones(len(unit))]), rcond=1e-9)[:3]
-    return np.asarray(rows[:, :, None] * unit[None, :, :])
-
-
-def _circle_block(feature: Feature, frame: Frame) -> Block:
-    """Distances from the centre of a circle."""
-    moved = frame(feature.points)
-    centre, radius = fit_circle(moved, feature.axis)
-    flat = (moved - centre) - ((moved - centre) @ feature.axis)[:, None] * feature.axis
-    distance = np.linalg.norm(flat, axis=1)
-    unit = flat / distance[:, None]
-    return Block(distance - radius, frame.jacobian(moved, unit),
-                 lambda errors: np.einsum("dnx,nx->dn", errors @ frame.rotation.T, unit), _even(feature))
-
-
-def _even(feature: Feature) -> NDArray[np.bool_]:
-    return np.arange(len(feature.points)) < feature.even
-
-
-def _joined(blocks: Sequence[Block]) -> Block:
-    if len(blocks) == 1:
-        return blocks[0]
-    return Block(np.concatenate([block.residual for block in blocks]),
-                 np.concatenate([block.jacobian for block in blocks]), blocks[0].errors,
-                 np.concatenate([block.even for block in blocks]))
-
-
-def _roundness(feature: Feature, frame: Frame, count: int, random: np.random.Generator) -> ZoneValue:
+def _roundness(feature: InspectedFeature, frame: Frame, count: int, random: np.random.Generator) -> ZoneValue:
     """The roundness of the worst section of a cylinder."""
     thin = feature.thinned(_MOST_THIN)
     drawn = thin.errors.draws(count, random)
     found: list[tuple[Any, ...]] = []
     none = np.zeros((count, 6))
     for section, few in zip(feature.sections, thin.sections, strict=True):
-        if len(section) < _FEWEST_SECTION:
+        if len(section) < FEWEST_SECTION:
             continue
         whole, part = (_section(item, rows) for item, rows in ((feature, section), (thin, few)))
         around = [_by_squares("roundness", [item], frame, SHIFTS, "width")[0] for item in (whole, part)]
@@ -280,12 +175,12 @@ def _roundness(feature: Feature, frame: Frame, count: int, random: np.random.Gen
     return ZoneValue(float(least), float(squares), shown - plain, floor)
 
 
-def _section(feature: Feature, rows: Index) -> Feature:
+def _section(feature: InspectedFeature, rows: Index) -> InspectedFeature:
     return replace(feature, kind="circle", points=feature.points[rows], heights=None, sections=(),
                    errors=feature.errors.part(rows), normals=feature.normals[rows], even=len(rows))
 
 
-def _circle_zone(feature: Feature, frame: Frame) -> float:
+def _circle_zone(feature: InspectedFeature, frame: Frame) -> float:
     """Minimum zone of a circle: the centre is moved, and the distances from it are taken anew."""
     moved = frame(feature.points)
     centre, _ = fit_circle(moved, feature.axis)

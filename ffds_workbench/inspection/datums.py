@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import RefusedError
 from ..registration.arrays import Array
-from .features import Feature
+from .features import InspectedFeature
 from .frames import FREE, Frame
 from .zones import MOVES, least_zone
 
@@ -30,7 +30,7 @@ class DatumFrame:
 
     frame: Frame
     free: Array
-    stations: tuple[tuple[Feature, Array, Array], ...] = ()
+    stations: tuple[tuple[InspectedFeature, Array, Array], ...] = ()
 
     def follow(self, draws: Sequence[Array]) -> Array:
         """How the part moves on its datums where their points err: motions (d, 6) for ``draws`` (d, n, 3) of each
@@ -42,7 +42,7 @@ class DatumFrame:
         return motion
 
 
-def on_datums(start: Frame, datums: Sequence[Feature]) -> DatumFrame:
+def on_datums(start: Frame, datums: Sequence[InspectedFeature]) -> DatumFrame:
     """Put a part onto its datums.
 
     Parameters
@@ -75,7 +75,7 @@ def on_datums(start: Frame, datums: Sequence[Feature]) -> DatumFrame:
     return DatumFrame(frame, free, tuple(stations))
 
 
-def height_rows(feature: Feature, frame: Frame) -> tuple[Array, Array, Array]:
+def height_rows(feature: InspectedFeature, frame: Frame) -> tuple[Array, Array, Array]:
     """Heights (n,) of a face's points over the nominal surface, its normals (n, 3) and the change (n, 6) of the heights
     with a motion."""
     assert feature.heights is not None

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..errors import InputError
 from ..registration.arrays import Array
-from .features import Feature
+from .features import InspectedFeature
 from .fits import fit_circle, fit_cylinder, fit_line, fit_plane
 
 Evaluate = Callable[[Sequence[Array]], Array]
@@ -27,7 +27,8 @@ class DimensionValue:
     draws: Array
 
 
-def dimension_value(kind: str, features: Sequence[Feature], count: int, random: np.random.Generator) -> DimensionValue:
+def dimension_value(kind: str, features: Sequence[InspectedFeature], count: int, random: np.random.Generator
+                    ) -> DimensionValue:
     """A dimension of one or two features.
 
     Parameters
@@ -52,12 +53,12 @@ def dimension_value(kind: str, features: Sequence[Feature], count: int, random: 
     return DimensionValue(values, moved - plain)
 
 
-def nominal_dimension(kind: str, features: Sequence[Feature], nominal: Sequence[Array]) -> float:
+def nominal_dimension(kind: str, features: Sequence[InspectedFeature], nominal: Sequence[Array]) -> float:
     """The same of the nominal points of the features."""
     return float(_evaluator(kind, features)(nominal)[0])
 
 
-def _evaluator(kind: str, features: Sequence[Feature]) -> Evaluate:
+def _evaluator(kind: str, features: Sequence[InspectedFeature]) -> Evaluate:
     if kind == "diameter":
         return _diameter(features[0])
     if kind == "distance":
@@ -69,7 +70,7 @@ def _evaluator(kind: str, features: Sequence[Feature]) -> Evaluate:
     return _gap(kind, *features)
 
 
-def _diameter(feature: Feature) -> Evaluate:
+def _diameter(feature: InspectedFeature) -> Evaluate:
     if feature.kind not in ("cylinder", "circle"):
         raise InputError(f"{feature.name} is a {feature.kind}: a diameter is of a cylinder or a circle.")
 
@@ -81,7 +82,7 @@ def _diameter(feature: Feature) -> Evaluate:
     return evaluate
 
 
-def _located(feature: Feature, points: Array) -> tuple[Array, Array]:
+def _located(feature: InspectedFeature, points: Array) -> tuple[Array, Array]:
     """A point and the direction of a feature: the normal of a plane, an axis, or the direction of a line."""
     points = points[: feature.even]
     if feature.kind == "plane":
@@ -97,7 +98,7 @@ def _located(feature: Feature, points: Array) -> tuple[Array, Array]:
                      f"cylinder, a straight edge or a circle.")
 
 
-def _distance(first: Feature, second: Feature) -> Evaluate:
+def _distance(first: InspectedFeature, second: InspectedFeature) -> Evaluate:
     planes = [feature for feature in (first, second) if feature.kind == "plane"]
 
     def evaluate(points: Sequence[Array]) -> Array:
@@ -114,7 +115,7 @@ def _distance(first: Feature, second: Feature) -> Evaluate:
     return evaluate
 
 
-def _angle(first: Feature, second: Feature) -> Evaluate:
+def _angle(first: InspectedFeature, second: InspectedFeature) -> Evaluate:
     mixed = (first.kind == "plane") != (second.kind == "plane")
 
     def evaluate(points: Sequence[Array]) -> Array:
@@ -126,7 +127,7 @@ def _angle(first: Feature, second: Feature) -> Evaluate:
     return evaluate
 
 
-def _thickness(first: Feature, second: Feature) -> Evaluate:
+def _thickness(first: InspectedFeature, second: InspectedFeature) -> Evaluate:
     """Distances of the points of one face from the other one, along the latter's tangent planes at its nearest points.
 
     Only points that lie over the other face count: those that see it within a step of its points along it.
@@ -152,7 +153,7 @@ def _thickness(first: Feature, second: Feature) -> Evaluate:
     return evaluate
 
 
-def _gap(kind: str, first: Feature, second: Feature) -> Evaluate:
+def _gap(kind: str, first: InspectedFeature, second: InspectedFeature) -> Evaluate:
     """From the points of an edge to the other edge: along the surface (gap), or across it (flush, positive where the
     second one is higher)."""
     for feature in (first, second):

@@ -45,7 +45,7 @@ class ErrorField:
 
 
 @dataclass(frozen=True)
-class Feature:
+class InspectedFeature:
     """A face or an edge.
 
     Attributes
@@ -85,7 +85,7 @@ class Feature:
     def is_edge(self) -> bool:
         return self.offsets is not None
 
-    def thinned(self, most: int) -> Feature:
+    def thinned(self, most: int) -> InspectedFeature:
         """At most so many of its points, at equal steps, and its sections thinned alike."""
         if self.sections:
             step = max(1, -(-sum(map(len, self.sections)) // most))

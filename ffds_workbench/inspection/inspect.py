@@ -12,7 +12,7 @@ from ..registration.arrays import Array
 from ..report.stopwatch import Progress
 from .characteristics import zone_value
 from .dimensions import dimension_value, nominal_dimension
-from .features import Feature
+from .features import InspectedFeature
 from .frames import Frame
 from .plan import ZONES, Plan, PlanItem
 from .sampling import PartPair
@@ -99,9 +99,9 @@ def inspect_shapes(plan: Plan, parts: PartPair, progress: Progress = lambda text
     ------
     InputError : the plan names what the model does not have, or a characteristic that a feature cannot have
     """
-    known: dict[str, tuple[Feature, Array]] = {}
+    known: dict[str, tuple[InspectedFeature, Array]] = {}
 
-    def feature(name: str) -> tuple[Feature, Array]:
+    def feature(name: str) -> tuple[InspectedFeature, Array]:
         if name not in known:
             known[name] = parts.feature(name)
         return known[name]
@@ -115,7 +115,7 @@ def inspect_shapes(plan: Plan, parts: PartPair, progress: Progress = lambda text
     return Inspection(tuple(items), parts.known.entries is None)
 
 
-def _inspected(item: PlanItem, plan: Plan, feature: Callable[[str], tuple[Feature, Array]], start: Frame,
+def _inspected(item: PlanItem, plan: Plan, feature: Callable[[str], tuple[InspectedFeature, Array]], start: Frame,
                parts: PartPair) -> Inspected:
     pairs = [feature(name) for name in item.of]
     features, datums = [own for own, _ in pairs], [feature(plan.datums[letter])[0] for letter in item.datums]
@@ -162,7 +162,7 @@ def _intervals(values: Array, draws: Array) -> Array:
     return np.stack([values - high, values - np.minimum(low, low - middle)], axis=1)
 
 
-def _bonus(item: PlanItem, feature: Feature, random: np.random.Generator) -> tuple[float, Array]:
+def _bonus(item: PlanItem, feature: InspectedFeature, random: np.random.Generator) -> tuple[float, Array]:
     """What the material condition adds to a tolerance, in mm, and how errors change it (d,)."""
     size = dimension_value("diameter", [feature], _DRAWS, random)
     hole, most = feature.outward < 0, item.condition == "mmc"
@@ -182,7 +182,7 @@ def _verdict(intervals: Array, lower: float | None, upper: float | None) -> Verd
     return "pass" if all(passes for passes, _ in sides) else "undecided"
 
 
-def _advice(verdict: Verdict, unseen: Sequence[str], features: Sequence[Feature]) -> str:
+def _advice(verdict: Verdict, unseen: Sequence[str], features: Sequence[InspectedFeature]) -> str:
     """Which further view would decide."""
     if verdict != "undecided":
         return ""

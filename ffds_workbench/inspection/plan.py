@@ -61,6 +61,10 @@ class Plan:
 def read_plan(path: str | Path) -> Plan:
     """Read a plan file.
 
+    Parameters
+    ----------
+    path : of a JSON file
+
     Raises
     ------
     InputError : it cannot be read, or says something that is no plan

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..registration.arrays import Array, Index
 from ..registration.face_geometry import FaceGeometry
 from ..registration.uv_raster import Raster, make_raster
-from .features import Feature, Heights, Offsets
+from .features import InspectedFeature, Heights, Offsets
 from .fits import across, fit_line, fit_plane
 from .known_errors import KnownErrors
 
@@ -23,7 +23,7 @@ _CELLS, _BORDER, _ON_EDGE = 4096, 600, 257
 """Places on a face, about its border and on an edge: a form error of a third of the face's length is met to a
 thousandth of itself."""
 _MOST_SECTIONS, _FEWEST_SECTION = 15, 8
-_SAME = 1e-6
+_PLANE_WITHIN = 1e-6
 """What is plane or straight to this, in mm, is so: twice what a lattice may be off its surface, and less."""
 _NEWTON = 6
 
@@ -48,7 +48,7 @@ class PartPair:
                 raise InputError(f"The nominal model has {a} {kind} and the as-built one {b}: name the model that it "
                                  f"was made from.")
 
-    def feature(self, name: str) -> tuple[Feature, Array]:
+    def feature(self, name: str) -> tuple[InspectedFeature, Array]:
         """A face or an edge by its name, and its nominal points (n, 3) (InputError where there is none)."""
         if name.startswith("Edge"):
             number = name.removeprefix("Edge")
@@ -57,7 +57,7 @@ class PartPair:
             return self._edge(name, int(number) - 1)
         return self._face(name, self.nominal.index(name))
 
-    def _face(self, name: str, index: int) -> tuple[Feature, Array]:
+    def _face(self, name: str, index: int) -> tuple[InspectedFeature, Array]:
         geometry, nominal = self.built.geometry(index), self.nominal.geometry(index)
         raster = make_raster(geometry, _CELLS)
         grid = np.stack(np.meshgrid(raster.u, raster.v, indexing="ij"), axis=2).reshape(-1, 2)[raster.inside]
@@ -72,10 +72,10 @@ class PartPair:
         seen = normals.mean(axis=0)
         if np.linalg.norm(seen) < 0.1:  # all around: seen from across
             seen = normals[0]
-        return Feature(name, kind, points, heights, None, place, axis, radius, outward, sections, errors,
+        return InspectedFeature(name, kind, points, heights, None, place, axis, radius, outward, sections, errors,
                        seen / np.linalg.norm(seen), normals, len(grid)), below
 
-    def _edge(self, name: str, index: int) -> tuple[Feature, Array]:
+    def _edge(self, name: str, index: int) -> tuple[InspectedFeature, Array]:
         fractions = np.linspace(0.0, 1.0, _ON_EDGE)
         below = points_on_edge(self.nominal.edges[index], fractions)
         points = points_on_edge(self.built.edges[index], fractions)
@@ -86,7 +86,7 @@ class PartPair:
         faces = self.nominal.topology.edge_faces[index]
         normals = _normals_on(self.nominal.geometry(faces[0]), below) if faces else sides[:, 0]
         seen = normals.mean(axis=0)
-        return Feature(name, kind, points, None, offsets, place, axis, radius, 0, (), errors,
+        return InspectedFeature(name, kind, points, None, offsets, place, axis, radius, 0, (), errors,
                        seen / max(float(np.linalg.norm(seen)), 1e-300), normals, len(points)), below
 
 
@@ -116,7 +116,7 @@ def _nominal_shape(surface: Any, geometry: FaceGeometry, below: Array
 
         return "cylinder", place, axis, radius, heights
     place, axis = fit_plane(below, _normals_on(geometry, below[:1])[0])
-    if np.abs((below - place) @ axis).max() <= _SAME:
+    if np.abs((below - place) @ axis).max() <= _PLANE_WITHIN:
         return "plane", place, axis, 0.0, lambda points: ((points - place) @ axis, np.tile(axis, (len(points), 1)))
     return "surface", place, axis, 0.0, lambda points: _foot_points(geometry, points)
 
@@ -189,7 +189,7 @@ def _nominal_curve(edge: Part.Edge, below: Array) -> tuple[str, Array, Array, fl
         return "circle", centre, axis, radius, of_circle
     place, direction = fit_line(below, below[-1] - below[0])
     flat = (below - place) - ((below - place) @ direction)[:, None] * direction
-    if np.abs(flat).max() <= _SAME:
+    if np.abs(flat).max() <= _PLANE_WITHIN:
 
         def of_line(points: Array) -> tuple[Array, Array]:
             off = points - place
