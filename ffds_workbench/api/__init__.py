@@ -41,6 +41,7 @@ _HOMES = {
     "..seams.measured": ("SeamLimits",),
     "..seams.plan": ("plan_seams",),
     "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
+    "..seams.programs.reading": ("read_program",),
     "..seams.settings": ("SeamSettings",),
     "..seams.output.writing": ("check_seam_outputs", "program_notes", "programmed_seams", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),

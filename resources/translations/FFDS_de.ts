@@ -1142,6 +1142,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>FFDS_ShowDocumentation</name>
+    <message>
+      <source>Documentation</source>
+      <translation>Dokumentation</translation>
+    </message>
+    <message>
+      <source>Opens the documentation: the web pages that resources/scripts/docs.sh has built, or the texts that they are built from.</source>
+      <translation>Öffnet die Dokumentation: die Webseiten, die resources/scripts/docs.sh gebaut hat, oder die Texte, aus denen sie gebaut werden.</translation>
+    </message>
+    <message>
+      <source>Tutorials, how-tos, what is refused and what to do, and how sure a result is</source>
+      <translation>Einführungen, Anleitungen, was abgelehnt wird und was zu tun ist, und wie sicher ein Ergebnis ist</translation>
+    </message>
+  </context>
+  <context>
     <name>FFDS_ShowLattice</name>
     <message>
       <source>Draw the control lattices of the selected as-built part, before and after, or hide them</source>
