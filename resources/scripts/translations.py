@@ -73,7 +73,7 @@ def _said(tree: ast.AST) -> Iterator[str]:
         else:
             continue
         for value in spoken:
-            yield from _templates(value)
+            yield from (text for text in _templates(value) if not text.startswith("\t"))  # a line of a program
 
 
 def _templates(node: ast.expr) -> Iterator[str]:

@@ -1585,14 +1585,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Sentence</name>
     <message>
-      <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
-      <translation>	W = {0} deg,	P = {1} deg,	R = {2} deg</translation>
-    </message>
-    <message>
-      <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
-      <translation>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</translation>
-    </message>
-    <message>
       <source> (its {0} rows are not finite numbers)</source>
       <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
     </message>
