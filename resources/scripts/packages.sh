@@ -39,9 +39,13 @@ install_packages() {
     $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing
 }
 
-# Install a package that can be done without.
+# Install a package that can be done without, where this system knows it.
 install_if_there() {
-    install_packages "$1" || echo "ffds: left out, as it cannot be installed here: $1" >&2
+    if dpkg-query -W "$1" >/dev/null 2>&1 || apt-cache show "$1" >/dev/null 2>&1; then
+        install_packages "$1" || echo "ffds: left out, as it could not be installed: $1" >&2
+    else
+        echo "ffds: left out, as this system does not know it: $1" >&2
+    fi
 }
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
