@@ -19,6 +19,7 @@ from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from . import align, benchmark, prepare, seams, sensor, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
+from .morphing import field, morph
 from .terminal import ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
@@ -95,6 +96,8 @@ def command_line() -> argparse.ArgumentParser:
     align.add(commands)
     simulate.add(commands)
     sensor.add(commands)
+    field.add(commands)
+    morph.add(commands)
     seams.add(commands)
     weld.add(commands)
     _add_demo(commands)

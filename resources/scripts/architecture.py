@@ -20,7 +20,7 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "ffds_workbench"
-FLOORS = (("gui",), ("cli", "objects", "benchmark"), ("api",), ("seams", "report"), ("brep",), ("scan",),
+FLOORS = (("gui",), ("cli", "objects", "benchmark"), ("api",), ("fields", "seams", "report"), ("brep",), ("scan",),
           ("registration/rigid", "registration/joint", "registration/face"), ("registration",))
 """From the roof to the ground: what stands lower may be used by what stands higher."""
 INK, SOFT, FILL = "#1b1f24", "#8a939c", "#e6eef5"

@@ -13,7 +13,7 @@ import FreeCADGui as Gui
 import pytest
 from PySide2 import QtCore, QtTest, QtWidgets
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.gui import running
 
 SHOTS = os.environ.get("FFDS_SCREENSHOTS")
@@ -209,7 +209,7 @@ def hands(monkeypatch):
     Checks for Boolean operations are given up at once: they would keep the machine busy for what other tests measure.
     `test_boolean_check` looks at how long one is waited for.
     """
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
     used = Hands()
     Gui.getMainWindow().showMaximized()
     Gui.activateWorkbench("FFDSWorkbench")

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Displacement fields as jobs: `taking` them from models, meshes and results, `applying` them to a model."""
