@@ -21,11 +21,12 @@ _MATERIAL = np.dtype([("ambient", "<u4"), ("diffuse", "<u4"), ("specular", "<u4"
 
 
 def qt(module: str) -> Any:
-    """A module of Qt, "QtCore" for instance, of the Qt that this FreeCAD has."""
-    try:
-        return importlib.import_module(f"PySide2.{module}")
-    except ImportError:
-        return importlib.import_module(f"PySide6.{module}")
+    """A module of Qt, "QtCore" for instance, of the Qt that this FreeCAD's own ``PySide`` hands out.
+
+    QtGui holds what Qt 5 has among the widgets, too.
+    """
+    binding = importlib.import_module("PySide.QtCore").QObject.__module__.partition(".")[0]  # "PySide2" or "PySide6"
+    return importlib.import_module("PySide.QtGui" if module == "QtGui" else f"{binding}.{module}")
 
 
 def freecad_version() -> str:
@@ -61,10 +62,9 @@ def number_of(flags: Any) -> int:
 
 
 def shortcut(key: Any, window: Any) -> Any:
-    """A QShortcut, which Qt 6 has moved."""
-    gui, widgets = qt("QtGui"), qt("QtWidgets")
-    kind = widgets.QShortcut if hasattr(widgets, "QShortcut") else gui.QShortcut
-    return kind(gui.QKeySequence(key), window)
+    """A QShortcut."""
+    gui = qt("QtGui")
+    return gui.QShortcut(gui.QKeySequence(key), window)
 
 
 class Stateless:

@@ -38,14 +38,15 @@ def refuse_other_part(part: Workpiece, cloud: PointCloud) -> None:
     sample = cloud.points[np.random.default_rng(0).permutation(len(cloud.points))[:_SAMPLE]]
     if _unexplained(_on_edges(part), sample)[0] <= _UNEXPLAINED_SHARE:
         return  # as is usual where there are many faces: no need to look at all of them
-    share, far = _unexplained(_on_faces(part), sample)
+    places = on_faces(part)
+    share, far = _unexplained(places, sample)
     if share <= _UNEXPLAINED_SHARE:
         return
     for shape, points, sentence in _known:
         if shape.isEqual(part.shape) and np.array_equal(points, sample):
             break
     else:
-        sentence = far_scan_refusal(part, cloud, far)
+        sentence = far_scan_refusal(part, cloud, places, far)
         _known.append((part.shape, sample, sentence))
     if sentence:
         raise RefusedError(sentence)
@@ -64,14 +65,15 @@ def _unexplained(places: Array, points: Array) -> tuple[float, float]:
     return float(np.isinf(distance).mean()), far
 
 
-def _on_faces(part: Workpiece) -> Array:
+def on_faces(part: Workpiece) -> Array:
     """Places (n, 3) all over the faces of a part."""
     rasters = [make_raster(part.geometry(index), _CELLS) for index in range(len(part.faces))]
     return np.concatenate([raster.position[raster.inside] for raster in rasters])
 
 
-def far_scan_refusal(part: Workpiece, cloud: PointCloud, far: float) -> str:
-    """Why the scan cannot be used as it lies; empty where it can."""
+def far_scan_refusal(part: Workpiece, cloud: PointCloud, places: Array, far: float) -> str:
+    """Why the scan cannot be used as it lies, farther than ``far`` mm off ``places`` (n, 3) all over the part's faces;
+    empty where it can."""
     found = align(target_of_shape(part.shape), cloud.points, "fine")
     if found.verdict == FAILED:
         return (f"The scan does not show this part where it lies: {found.reason}; choose another scan, or align it "
@@ -79,7 +81,7 @@ def far_scan_refusal(part: Workpiece, cloud: PointCloud, far: float) -> str:
     aligned = cloud.points @ found.T_model_scan[:3, :3].T + found.T_model_scan[:3, 3]
     off = np.linalg.norm(aligned - cloud.points, axis=1)
     if found.verdict == AMBIGUOUS:  # a body of revolution fits however it is turned: how far off its surface?
-        tree = cKDTree(_on_faces(part))
+        tree = cKDTree(places)
         off = tree.query(cloud.points[tree.query(aligned)[0] < far])[0]
     usual = float(np.median(off))
     return f"The scan lies {usual:.3g} mm off the part: align it with the model first." if usual > far else ""

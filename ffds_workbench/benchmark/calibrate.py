@@ -91,9 +91,8 @@ def _verdict(part: LoosePart, other: LoosePart, condition: str, shows: str, seed
     scan, truth = other.scans[condition]
     moved = random_start(scan, "global", np.random.default_rng(seed))
     found = align(part.target, apply(moved, scan), "global", scales=(1.0,), seed=seed[0])
-    score = found.poses[0].score if found.poses else -1.0
     return VerdictCase(part.family, other.family, condition, shows,
-                       shows == OWN and is_right(found, moved, truth, part), 0.5 * (score + found.explained),
+                       shows == OWN and is_right(found, moved, truth, part), found.certainty,
                        found.verdict == FAILED)
 
 

@@ -6,9 +6,9 @@ make fields of two models, two meshes and the results of finite elements; `morph
 faces out of one. Fields through few measured points need the part's stiffness and stand in `registration`.
 """
 from .csv_file import read_field, write_field
-from .field import Field
+from .field import VectorField
 from .morphing import Morphing, displacements
 from .operations import FieldMean, difference, limited, masked, mean, scaled, smoothed, total, transformed
 
-__all__ = ["Field", "FieldMean", "Morphing", "difference", "displacements", "limited", "masked", "mean", "read_field",
+__all__ = ["VectorField", "FieldMean", "Morphing", "difference", "displacements", "limited", "masked", "mean", "read_field",
            "scaled", "smoothed", "total", "transformed", "write_field"]

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..output import replacing
-from .field import Field
+from .field import VectorField
 
 COLUMNS = ("x", "y", "z", "dx", "dy", "dz")
 SIGMA = "sigma"
@@ -20,13 +20,13 @@ _FACE = re.compile(r"#\s*Face(\d+)\s*$")
 _PARTED = re.compile(r"[,;\s]+")
 
 
-def write_field(field: Field, path: str | Path) -> None:
+def write_field(field: VectorField, path: str | Path) -> None:
     """Write a field (RefusedError where the disk is full)."""
     with replacing(Path(path)) as (temporary,):
         temporary.write_text(_text(field), "utf-8")
 
 
-def _text(field: Field) -> str:
+def _text(field: VectorField) -> str:
     columns = [field.positions, field.displacements]
     names = list(COLUMNS)
     if field.sigma is not None:
@@ -45,7 +45,7 @@ def _text(field: Field) -> str:
     return "\n".join(lines) + "\n"
 
 
-def read_field(path: str | Path) -> Field:
+def read_field(path: str | Path) -> VectorField:
     """Read a field.
 
     Raises
@@ -59,7 +59,7 @@ def read_field(path: str | Path) -> Field:
     columns = [table[:, names.index(name)] for name in COLUMNS]
     sigma = table[:, names.index(SIGMA)] if SIGMA in names else None
     known = np.array(faces, dtype=np.intp)
-    return Field(np.stack(columns[:3], axis=1), np.stack(columns[3:], axis=1), sigma, known if known.any() else None)
+    return VectorField(np.stack(columns[:3], axis=1), np.stack(columns[3:], axis=1), sigma, known if known.any() else None)
 
 
 def read_table(path: Path, what: str, defaults: tuple[str, ...] = (*COLUMNS, SIGMA)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..registration.arrays import Array
-from .field import Field
+from .field import VectorField
 
 FORMATS = ".frd .vtu .vtk .unv"
 _NAMES = re.compile(rb'(<DataArray[^>]*\bName=")(displacements?|disp|u|displacementvectors)(")', re.IGNORECASE)
@@ -29,7 +29,7 @@ Steps = list[tuple[Array, Array]]
 """Positions and displacements (n, 3) of every step."""
 
 
-def read_result(path: Path, step: int | None = None) -> Field:
+def read_result(path: Path, step: int | None = None) -> VectorField:
     """The displacements of a result file.
 
     Parameters
@@ -54,17 +54,17 @@ def read_result(path: Path, step: int | None = None) -> Field:
         raise InputError(f"The result {path} has no displacements of nodes: let them be written.")
     if step is not None and not 1 <= step <= len(steps):
         raise InputError(f"The result {path} has no step {step}: those with displacements are 1 to {len(steps)}.")
-    return Field(*steps[-1 if step is None else step - 1])
+    return VectorField(*steps[-1 if step is None else step - 1])
 
 
-def field_of_result_object(result: Any) -> Field:
+def field_of_result_object(result: Any) -> VectorField:
     """The displacements of a mechanical result of FreeCAD's FEM workbench (InputError if it has none)."""
     vectors, mesh = getattr(result, "DisplacementVectors", None), getattr(result, "Mesh", None)
     if not vectors or mesh is None:
         raise InputError(f"{getattr(result, 'Label', result)} has no displacements: choose a mechanical result.")
     nodes = mesh.FemMesh.Nodes
     numbers = list(getattr(result, "NodeNumbers", ())) or sorted(nodes)
-    return Field(_array([nodes[number] for number in numbers]), _array(vectors))
+    return VectorField(_array([nodes[number] for number in numbers]), _array(vectors))
 
 
 def _array(vectors: Sequence[Any]) -> Array:

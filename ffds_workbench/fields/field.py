@@ -18,7 +18,7 @@ rebuilt face leaves of its displacement)."""
 
 
 @dataclass(frozen=True)
-class Field:
+class VectorField:
     """Displacements of a part.
 
     Attributes
@@ -80,8 +80,8 @@ class Field:
         """The smooth field through all vectors, or past them as far as their sigma lets them stand apart."""
         return fit(self.positions, self.displacements, self.exactness, self.sigma)
 
-    def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Field:
+    def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> VectorField:
         """Only the places that an index or mask array tells."""
-        return Field(self.positions[which], self.displacements[which],
+        return VectorField(self.positions[which], self.displacements[which],
                      None if self.sigma is None else self.sigma[which],
                      None if self.faces is None else self.faces[which])

@@ -9,10 +9,10 @@ import numpy as np
 from ..errors import InputError
 from ..registration.arrays import Array
 from ..scan.formats.stl import triangles
-from .field import Field
+from .field import VectorField
 
 
-def field_between_meshes(nominal: Path, displaced: Path) -> Field:
+def field_between_meshes(nominal: Path, displaced: Path) -> VectorField:
     """How the corners of one STL mesh move to those of another one.
 
     Raises
@@ -30,7 +30,7 @@ def field_between_meshes(nominal: Path, displaced: Path) -> Field:
     if apart > 1e-3 * size:
         raise InputError(f"The meshes have not the same numbering: what is one corner in {nominal} is up to "
                          f"{apart:.3g} mm apart in {displaced}.")
-    return Field(places, moved)
+    return VectorField(places, moved)
 
 
 def _corners(path: Path) -> Array:

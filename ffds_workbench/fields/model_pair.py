@@ -13,7 +13,7 @@ from ..brep.workpiece import Workpiece, WorkpieceFace
 from ..errors import InputError
 from ..registration.arrays import Array
 from ..registration.trims import inside_trims
-from .field import Field
+from .field import VectorField
 
 _SPACINGS_PER_SIZE = 60.0
 """Places on the size of the part, from one to the next."""
@@ -32,7 +32,7 @@ class _Places:
     after: Array
 
 
-def field_between(nominal: Workpiece, built: Workpiece) -> Field:
+def field_between(nominal: Workpiece, built: Workpiece) -> VectorField:
     """How the nominal model moves into the as-built one.
 
     Raises
@@ -47,7 +47,7 @@ def field_between(nominal: Workpiece, built: Workpiece) -> Field:
         parts.append(_joined([pair.on_edges(nominal, built), pair.inside()]))
     numbers = np.repeat(np.arange(1, len(parts) + 1), [len(part.before) for part in parts])
     places = _joined(parts)
-    return Field(places.before, places.after - places.before, faces=numbers)
+    return VectorField(places.before, places.after - places.before, faces=numbers)
 
 
 def _refuse_others(nominal: Workpiece, built: Workpiece) -> None:

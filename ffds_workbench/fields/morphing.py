@@ -19,7 +19,7 @@ from ..brep.workpiece import Workpiece, WorkpieceFace
 from ..errors import InputError
 from ..registration.arrays import Array
 from ..registration.space import SpaceField
-from .field import Field
+from .field import VectorField
 
 _STILL = 1e-9
 """A face stays as it is where nothing of it moves by more than this (mm)."""
@@ -79,7 +79,7 @@ class _InSpace:
         return self.field(points)
 
 
-def displacements(part: Workpiece, field: Field, factor: float = 1.0, ignore: float = 0.0) -> Morphing:
+def displacements(part: Workpiece, field: VectorField, factor: float = 1.0, ignore: float = 0.0) -> Morphing:
     """The displacements of a part's faces by a field.
 
     Parameters
@@ -114,7 +114,7 @@ def displacements(part: Workpiece, field: Field, factor: float = 1.0, ignore: fl
     return Morphing(moved, Misses(field.positions, misses, ignored), abs(factor) * used.largest)
 
 
-def _refuse_elsewhere(part: Workpiece, field: Field) -> None:
+def _refuse_elsewhere(part: Workpiece, field: VectorField) -> None:
     box = part.shape.BoundBox
     low, high = np.array([box.XMin, box.YMin, box.ZMin]), np.array([box.XMax, box.YMax, box.ZMax])
     beyond = np.linalg.norm(np.maximum(np.maximum(low - field.positions, field.positions - high), 0.0), axis=1)
@@ -124,7 +124,7 @@ def _refuse_elsewhere(part: Workpiece, field: Field) -> None:
                          f"the part: take the part that the field was made of, where it stood, in mm.")
 
 
-def _least_agreeing(field: Field, share: float) -> NDArray[np.bool_]:
+def _least_agreeing(field: VectorField, share: float) -> NDArray[np.bool_]:
     """The share of vectors that are farthest from the median of those around them."""
     out = np.zeros(len(field), dtype=bool)
     count = int(share * len(field))
@@ -135,7 +135,7 @@ def _least_agreeing(field: Field, share: float) -> NDArray[np.bool_]:
     return out
 
 
-def _bodies(part: Workpiece, field: Field) -> list[tuple[Sequence[int], NDArray[np.intp]]]:
+def _bodies(part: Workpiece, field: VectorField) -> list[tuple[Sequence[int], NDArray[np.intp]]]:
     """Faces that hang together by vertices, with the vectors that move them."""
     everything: list[tuple[Sequence[int], NDArray[np.intp]]] = [(range(len(part.faces)), np.arange(len(field)))]
     if field.faces is None or not (field.faces > 0).all():
@@ -146,7 +146,7 @@ def _bodies(part: Workpiece, field: Field) -> list[tuple[Sequence[int], NDArray[
     return [(faces, rows) for faces in groups if len(rows := _rows_of(field, faces))]
 
 
-def _rows_of(field: Field, faces: Sequence[int]) -> NDArray[np.intp]:
+def _rows_of(field: VectorField, faces: Sequence[int]) -> NDArray[np.intp]:
     assert field.faces is not None
     return np.flatnonzero(np.isin(field.faces - 1, list(faces)))
 

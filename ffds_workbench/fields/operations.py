@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..errors import InputError
 from ..registration.arrays import Array
 from ..registration.motions import apply
-from .field import Field
+from .field import VectorField
 
 _SAME_PLACES = 1e-6
 """Places nearer than this (mm) are one."""
@@ -30,40 +30,40 @@ class FieldMean:
     scatter : (n,) standard deviation in mm of one field about it, along the direction in which it is largest
     """
 
-    common: Field
+    common: VectorField
     scatter: Array
 
 
-def total(first: Field, second: Field) -> Field:
+def total(first: VectorField, second: VectorField) -> VectorField:
     """The sum: first the one, and with it the other, both told of the same nominal part."""
     return _combined(first, second, 1.0)
 
 
-def difference(first: Field, second: Field) -> Field:
+def difference(first: VectorField, second: VectorField) -> VectorField:
     """The first without the second."""
     return _combined(first, second, -1.0)
 
 
-def _combined(first: Field, second: Field, sign: float) -> Field:
+def _combined(first: VectorField, second: VectorField, sign: float) -> VectorField:
     vectors = first.displacements + sign * at_places(second, first.positions)
     if first.sigma is None or second.sigma is None or not _same_places(first, second):
         return replace(first, displacements=vectors)
     return replace(first, displacements=vectors, sigma=np.hypot(first.sigma, second.sigma))
 
 
-def at_places(field: Field, places: Array) -> Array:
+def at_places(field: VectorField, places: Array) -> Array:
     """A field's displacements at places (n, 3): its own vectors where they are its own places."""
     if field.positions.shape == places.shape and np.abs(field.positions - places).max() < _SAME_PLACES:
         return field.displacements
     return field.at(places)
 
 
-def _same_places(first: Field, second: Field) -> bool:
+def _same_places(first: VectorField, second: VectorField) -> bool:
     return (first.positions.shape == second.positions.shape
             and bool(np.abs(first.positions - second.positions).max() < _SAME_PLACES))
 
 
-def mean(fields: Sequence[Field]) -> FieldMean:
+def mean(fields: Sequence[VectorField]) -> FieldMean:
     """The mean of fields of several parts of one kind, at the places of the first.
 
     Raises
@@ -83,7 +83,7 @@ def mean(fields: Sequence[Field]) -> FieldMean:
     return FieldMean(replace(first, displacements=common, sigma=scatter / np.sqrt(count)), scatter)
 
 
-def scaled(field: Field, factor: float | Sequence[float]) -> Field:
+def scaled(field: VectorField, factor: float | Sequence[float]) -> VectorField:
     """The field times a factor, or times one for each of x, y and z. −1 reverses it.
 
     Raises
@@ -97,7 +97,7 @@ def scaled(field: Field, factor: float | Sequence[float]) -> Field:
     return replace(field, displacements=field.displacements * factors, sigma=sigma)
 
 
-def smoothed(field: Field, length: float) -> Field:
+def smoothed(field: VectorField, length: float) -> VectorField:
     """Every vector replaced by the plane through those around it, weighed by a normal distribution.
 
     Parameters
@@ -126,7 +126,7 @@ def smoothed(field: Field, length: float) -> Field:
     return replace(field, displacements=result)
 
 
-def limited(field: Field, largest: float) -> Field:
+def limited(field: VectorField, largest: float) -> VectorField:
     """Vectors longer than ``largest`` (mm) shortened to it (InputError if it is negative)."""
     if not largest >= 0:
         raise InputError(f"A largest displacement of {largest:g} mm makes no sense: give one of 0 or more.")
@@ -134,7 +134,7 @@ def limited(field: Field, largest: float) -> Field:
     return replace(field, displacements=field.displacements * np.minimum(1.0, largest / np.maximum(length, 1e-300)))
 
 
-def masked(field: Field, faces: Collection[int]) -> Field:
+def masked(field: VectorField, faces: Collection[int]) -> VectorField:
     """Only what lies on faces, numbered from 1, moves; all other places stay.
 
     Raises
@@ -146,6 +146,6 @@ def masked(field: Field, faces: Collection[int]) -> Field:
     return replace(field, displacements=np.where(np.isin(field.faces, list(faces))[:, None], field.displacements, 0.0))
 
 
-def transformed(field: Field, pose: Array) -> Field:
+def transformed(field: VectorField, pose: Array) -> VectorField:
     """The field of a part that stands elsewhere: places and vectors moved by a pose (4, 4)."""
     return replace(field, positions=apply(pose, field.positions), displacements=field.displacements @ pose[:3, :3].T)

@@ -17,6 +17,7 @@ from . import scans, views
 from .as_built import AsBuilt, apply_request, is_as_built, request_of
 from .jobs import alignment_job, simulation_job
 from .jobs.manual_alignment import align_by_points
+from .jobs.preparation_job import prepare_scan
 from .jobs.registration_job import Job, make_job
 from .repointing import repoint
 from .seams import add_trajectories, export_program, make_seams
@@ -24,8 +25,8 @@ from .sources import standing_for
 from .waiting import wait_for
 
 __all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
-           "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "replace_in_place", "replace_scan",
-           "repoint", "simulate_scan"]
+           "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "prepare_scan", "replace_in_place",
+           "replace_scan", "repoint", "simulate_scan"]
 
 
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:

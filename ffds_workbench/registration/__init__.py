@@ -3,6 +3,6 @@
 
 ``face/`` registers one face at a time, ``joint/`` the whole part at once, ``rigid/`` finds the pose of the scan. Here
 in the open is what they share: `splines`, `face_geometry` and `trims` (a face as arrays), `uv_raster` and `footpoints`
-(scan points over a face), `projection` (exact closest points), `motions` (rigid motions), `scan_sketch` (a few thousand
-even scan points with normals) with `normal_sides`, `scan_normals`, `robust_weights`.
+(scan points over a face), `projection` (exact closest points), `motions` (rigid motions), `robust_weights`, and
+``scan_points/`` (the points of a scan, their normals and where they end).
 """

@@ -15,6 +15,8 @@ MAD_TO_SIGMA = 1.4826
 """Standard deviation over the median absolute deviation, of normal noise."""
 TUKEY_SIGMAS = 4.685
 """Cut-off of Tukey's weights in standard deviations, for 95 % efficiency on normal noise."""
+NOISE_ENDS_SIGMAS = 4.0
+"""Standard deviations beyond which normal noise carries hardly any point: one in 16,000."""
 
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:

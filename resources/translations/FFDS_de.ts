@@ -200,6 +200,10 @@
       <translation>&lt;b&gt;{value} mm&lt;/b&gt; bei {place}</translation>
     </message>
     <message>
+      <source>A box</source>
+      <translation>Ein Quader</translation>
+    </message>
+    <message>
       <source>ABB program (*.mod)</source>
       <translation>ABB-Programm (*.mod)</translation>
     </message>
@@ -210,6 +214,10 @@
     <message>
       <source>Add robot trajectory</source>
       <translation>Roboterbahn hinzufügen</translation>
+    </message>
+    <message>
+      <source>After</source>
+      <translation>Nachher</translation>
     </message>
     <message>
       <source>Align by three points</source>
@@ -240,6 +248,10 @@
       <translation>Alle Punkte sind gewählt: Drücken Sie OK.</translation>
     </message>
     <message>
+      <source>All steps</source>
+      <translation>Alle Schritte</translation>
+    </message>
+    <message>
       <source>An as-built part beside the nominal one follows it and the scan; replacing is for plain shapes without a history</source>
       <translation>Ein Ist-Teil neben dem Nennteil folgt diesem und dem Scan; Ersetzen ist für einfache Formen ohne Historie</translation>
     </message>
@@ -256,12 +268,28 @@
       <translation>Automatisch</translation>
     </message>
     <message>
+      <source>Average the points in cubes of this edge</source>
+      <translation>Die Punkte in Würfeln dieser Kantenlänge mitteln</translation>
+    </message>
+    <message>
+      <source>Before</source>
+      <translation>Vorher</translation>
+    </message>
+    <message>
+      <source>Before and after</source>
+      <translation>Vorher und nachher</translation>
+    </message>
+    <message>
       <source>Before or after the deformation</source>
       <translation>Vor oder nach der Verformung</translation>
     </message>
     <message>
       <source>Cancel</source>
       <translation>Abbrechen</translation>
+    </message>
+    <message>
+      <source>Choose what shall be done first.</source>
+      <translation>Wählen Sie zuerst, was geschehen soll.</translation>
     </message>
     <message>
       <source>Colours on</source>
@@ -392,8 +420,28 @@
       <translation>KUKA-Programm (*.src)</translation>
     </message>
     <message>
+      <source>Keep what is between these corners</source>
+      <translation>Behalten, was zwischen diesen Ecken liegt</translation>
+    </message>
+    <message>
+      <source>Keep what is no farther from the part than this; the scan must lie on it</source>
+      <translation>Behalten, was nicht weiter vom Teil entfernt ist; der Scan muss darauf liegen</translation>
+    </message>
+    <message>
       <source>Load the example</source>
       <translation>Beispiel laden</translation>
+    </message>
+    <message>
+      <source>Look at</source>
+      <translation>Ansehen</translation>
+    </message>
+    <message>
+      <source>Look at the scan from where the sensor stood, then press this: it tells the skins of a sheet apart</source>
+      <translation>Den Scan von dort ansehen, wo der Sensor stand, dann hier klicken: das unterscheidet die beiden Seiten eines Blechs</translation>
+    </message>
+    <message>
+      <source>Match the scans with each other</source>
+      <translation>Scans aneinander ausrichten</translation>
     </message>
     <message>
       <source>May stretch</source>
@@ -432,6 +480,22 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Nominal</source>
       <translation>Soll</translation>
+    </message>
+    <message>
+      <source>Normals, towards the eye</source>
+      <translation>Normalen, zum Auge hin</translation>
+    </message>
+    <message>
+      <source>One point every {before} mm, now {after} mm. Light blue stays, red goes.</source>
+      <translation>Alle {before} mm ein Punkt, jetzt alle {after} mm. Hellblau bleibt, Rot geht.</translation>
+    </message>
+    <message>
+      <source>Only in a box</source>
+      <translation>Nur in einem Quader</translation>
+    </message>
+    <message>
+      <source>Only near {part}</source>
+      <translation>Nur nahe {part}</translation>
     </message>
     <message>
       <source>Or leave out the fine alignment.</source>
@@ -490,6 +554,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Zeigen Sie auf das Teil, um die Abweichung dort zu lesen.</translation>
     </message>
     <message>
+      <source>Points much farther from others than most</source>
+      <translation>Punkte, die viel weiter von anderen entfernt sind als die meisten</translation>
+    </message>
+    <message>
+      <source>Prepare scan</source>
+      <translation>Scan vorbereiten</translation>
+    </message>
+    <message>
       <source>Published FFDS</source>
       <translation>FFDS, publiziert</translation>
     </message>
@@ -508,6 +580,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Refining the preview</source>
       <translation>Die Vorschau wird verfeinert</translation>
+    </message>
+    <message>
+      <source>Remove clutter</source>
+      <translation>Fremdes entfernen</translation>
+    </message>
+    <message>
+      <source>Remove single points</source>
+      <translation>Einzelne Punkte entfernen</translation>
+    </message>
+    <message>
+      <source>Remove the table</source>
+      <translation>Tisch entfernen</translation>
     </message>
     <message>
       <source>Replace</source>
@@ -570,6 +654,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Blech</translation>
     </message>
     <message>
+      <source>Show</source>
+      <translation>Zeigen</translation>
+    </message>
+    <message>
       <source>Simulate a scan</source>
       <translation>Scan simulieren</translation>
     </message>
@@ -626,6 +714,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Das Teil misst {size} mm.</translation>
     </message>
     <message>
+      <source>The plane that the part stands on, and what is behind it</source>
+      <translation>Die Ebene, auf der das Teil steht, und was dahinter liegt</translation>
+    </message>
+    <message>
       <source>The same seed gives the same scan</source>
       <translation>Derselbe Startwert gibt denselben Scan</translation>
     </message>
@@ -648,6 +740,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The side seen now</source>
       <translation>Die jetzt sichtbare Seite</translation>
+    </message>
+    <message>
+      <source>The step that the view shows</source>
+      <translation>Der Schritt, den die Ansicht zeigt</translation>
+    </message>
+    <message>
+      <source>They lie about where they belong; a loop round the part is closed</source>
+      <translation>Sie liegen ungefähr, wo sie hingehören; ein Umlauf um das Teil wird geschlossen</translation>
+    </message>
+    <message>
+      <source>Thin</source>
+      <translation>Ausdünnen</translation>
     </message>
     <message>
       <source>This part is shown through the link {link}: pick it where it stands itself, or make a simple copy of the link.</source>
@@ -674,8 +778,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was die Farben trägt</translation>
     </message>
     <message>
+      <source>What stands apart from the part</source>
+      <translation>Was abseits vom Teil steht</translation>
+    </message>
+    <message>
       <source>Where the sensor stands</source>
       <translation>Wo der Sensor steht</translation>
+    </message>
+    <message>
+      <source>Which of its points the view shows</source>
+      <translation>Welche seiner Punkte die Ansicht zeigt</translation>
     </message>
     <message>
       <source>While this is pressed, picked faces are frozen, or set free again</source>
@@ -718,12 +830,28 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>blau</translation>
     </message>
     <message>
+      <source>box</source>
+      <translation>Quader</translation>
+    </message>
+    <message>
+      <source>clutter</source>
+      <translation>Fremdes</translation>
+    </message>
+    <message>
       <source>in {direction}</source>
       <translation>in {direction}</translation>
     </message>
     <message>
+      <source>matched</source>
+      <translation>ausgerichtet</translation>
+    </message>
+    <message>
       <source>mean</source>
       <translation>Mittel</translation>
+    </message>
+    <message>
+      <source>near the part</source>
+      <translation>nahe am Teil</translation>
     </message>
     <message>
       <source>no data</source>
@@ -732,6 +860,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>no scan there</source>
       <translation>dort kein Scan</translation>
+    </message>
+    <message>
+      <source>normals</source>
+      <translation>Normalen</translation>
     </message>
     <message>
       <source>nothing to compare</source>
@@ -746,6 +878,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>rot</translation>
     </message>
     <message>
+      <source>single points</source>
+      <translation>einzelne Punkte</translation>
+    </message>
+    <message>
+      <source>table</source>
+      <translation>Tisch</translation>
+    </message>
+    <message>
       <source>the part</source>
       <translation>dem Teil</translation>
     </message>
@@ -754,12 +894,20 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>dem Scan</translation>
     </message>
     <message>
+      <source>thinned</source>
+      <translation>ausgedünnt</translation>
+    </message>
+    <message>
       <source>within all limits</source>
       <translation>in allen Grenzen</translation>
     </message>
     <message>
       <source>yellow</source>
       <translation>gelb</translation>
+    </message>
+    <message>
+      <source>{count} points. Choose what shall be done.</source>
+      <translation>{count} Punkte. Wählen Sie, was geschehen soll.</translation>
     </message>
     <message>
       <source>{count} points: mean {mean} mm, 95 % below {p95} mm, largest {max} mm, signed mean {signed} mm</source>
@@ -946,6 +1094,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Opens a sheet-metal bracket and a scan of it as it came out of the press, to try everything on.</source>
       <translation>Öffnet einen Blechwinkel und einen Scan davon, wie er aus der Presse kam, um alles auszuprobieren.</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_PrepareScan</name>
+    <message>
+      <source>Crop the scan, take the table, clutter and single points away, thin it; several scans are made one</source>
+      <translation>Den Scan zuschneiden, Tisch, Fremdes und einzelne Punkte entfernen, ausdünnen; aus mehreren Scans wird einer</translation>
+    </message>
+    <message>
+      <source>Prepare scan…</source>
+      <translation>Scan vorbereiten…</translation>
+    </message>
+    <message>
+      <source>Select a scan, or several of one part, and the part where the scan is to be cropped to it. Each step shows what it takes away before anything is changed.</source>
+      <translation>Wählen Sie einen Scan oder mehrere eines Teils, und das Teil, wenn auf dessen Nähe zugeschnitten werden soll. Jeder Schritt zeigt, was er wegnimmt, bevor etwas geändert wird.</translation>
     </message>
   </context>
   <context>
@@ -1974,6 +2137,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Es gibt kein Teil: Wählen Sie eines aus, oder wählen Sie eines in den Eigenschaften.</translation>
     </message>
     <message>
+      <source>There is no scan to prepare: select one.</source>
+      <translation>Es gibt keinen Scan zum Vorbereiten: wählen Sie einen aus.</translation>
+    </message>
+    <message>
       <source>There is no {0}: the model has Edge1 to Edge{1}.</source>
       <translation>{0} gibt es nicht: Das Modell hat Edge1 bis Edge{1}.</translation>
     </message>
@@ -2040,6 +2207,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>no errors</source>
       <translation>keine Fehler</translation>
+    </message>
+    <message>
+      <source>no plane was found that the rest stands on</source>
+      <translation>es wurde keine Ebene gefunden, auf der das Übrige steht</translation>
     </message>
     <message>
       <source>nominal part</source>
@@ -2208,6 +2379,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} lies in a part: drag it out into the document before aligning it.</source>
       <translation>{0} liegt in einem Bauteil: Ziehen Sie den Scan vor dem Ausrichten heraus ins Dokument.</translation>
+    </message>
+    <message>
+      <source>{0} lies in a part: drag it out into the document before preparing it.</source>
+      <translation>{0} liegt in einem Teil: ziehen Sie ihn vor dem Vorbereiten heraus ins Dokument.</translation>
     </message>
     <message>
       <source>{0} lies on another part over {1} mm only, too short for a seam.</source>

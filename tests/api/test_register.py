@@ -191,5 +191,6 @@ def test_a_body_of_revolution_is_not_off_itself_however_it_is_turned(shift, sent
     random = np.random.default_rng(1)
     chosen = corner[random.choice(len(area), 20000, p=area / area.sum())]
     points = np.einsum("nk,nkx->nx", random.dirichlet(np.ones(3), 20000), chosen) + random.normal(0, NOISE, (20000, 3))
-    text = other_part.far_scan_refusal(workpiece.read(shape), PointCloud(points + [shift, 0, 0]), 4.0)
+    part, cloud = workpiece.read(shape), PointCloud(points + [shift, 0, 0])
+    text = other_part.far_scan_refusal(part, cloud, other_part.on_faces(part), 4.0)
     assert bool(text) == bool(sentence) and sentence in text

@@ -49,7 +49,7 @@ def warped(nominal) -> Part.Shape:
 
 
 @pytest.fixture(scope="module")
-def field(nominal, warped) -> api.Field:
+def field(nominal, warped) -> api.VectorField:
     return api.field_of_models(nominal, warped)
 
 
@@ -119,7 +119,7 @@ def test_operations(field):
 
 def test_the_mean_tells_the_common_from_the_scatter(field):
     random = np.random.default_rng(0)
-    fields = [api.total(field, api.Field(field.positions, np.tile(random.normal(0, 0.3, 3), (len(field), 1))))
+    fields = [api.total(field, api.VectorField(field.positions, np.tile(random.normal(0, 0.3, 3), (len(field), 1))))
               for _ in range(200)]
     found = api.mean(fields)
     # standard deviations of 200 draws: 0.3 / √200 = 0.02 of the mean, 5 % of the scatter; the largest direction leads
@@ -132,7 +132,7 @@ def test_smoothing_keeps_a_bend_and_takes_noise():
     random = np.random.default_rng(0)
     x, y = random.uniform(0, 100, (2, 4000))
     points = np.stack([x, y, 0 * x], axis=1)
-    noisy = api.Field(points, bend(points) + random.normal(0, 0.1, (4000, 3)))
+    noisy = api.VectorField(points, bend(points) + random.normal(0, 0.1, (4000, 3)))
     smooth = api.smoothed(noisy, 5.0)
     off = (smooth.displacements - bend(points))[(np.abs(points[:, :2] - 50) < 40).all(axis=1)]
     # π (2·5)² · 0.4 points/mm² = 126 of weight: 0.1/√126 = 0.009; the curvature's share ½ f″ 5² = 0.5·1.2e-3·25 = 0.015
@@ -227,7 +227,7 @@ def test_wild_vectors_may_be_ignored(nominal, field):
     wild = random.choice(len(field), len(field) // 100, replace=False)
     vectors = field.displacements.copy()
     vectors[wild] += random.normal(0, 3, (len(wild), 3))
-    found = api.morph(nominal, api.Field(field.positions, vectors, np.full(len(field), 0.01)), ignore=0.011,
+    found = api.morph(nominal, api.VectorField(field.positions, vectors, np.full(len(field), 0.01)), ignore=0.011,
                       tolerance=0.1)
     points = edge_points(nominal, 40)
     off = edge_points(found.shape, 40) - points - bend(points.reshape(-1, 3)).reshape(points.shape)

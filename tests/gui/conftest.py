@@ -11,10 +11,13 @@ from pathlib import Path
 import FreeCAD
 import FreeCADGui as Gui
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
 from ffds_workbench.api import certified
+from ffds_workbench.compat import qt
 from ffds_workbench.gui import running
+from ffds_workbench.gui.qt import QtCore, QtGui, QtWidgets, execute
+
+QtTest = qt("QtTest")
 
 SHOTS = os.environ.get("FFDS_SCREENSHOTS")
 
@@ -29,7 +32,7 @@ class Hands:
         """Let FreeCAD go on."""
         loop = QtCore.QEventLoop()
         QtCore.QTimer.singleShot(milliseconds, loop.quit)
-        loop.exec_()
+        execute(loop)
 
     def until(self, done: Callable[[], bool], seconds: float = 60.0) -> None:
         """Wait for something to happen."""
@@ -136,7 +139,7 @@ class Hands:
     def command(self, name: type) -> None:
         """Trigger the command's entry in the workbench's menu, once it is no longer grey."""
         text = name.MENU
-        actions = [action for action in Gui.getMainWindow().findChildren(QtWidgets.QAction) if action.text() == text]
+        actions = [action for action in Gui.getMainWindow().findChildren(QtGui.QAction) if action.text() == text]
         assert actions, f"there is no '{text}'"
         self.until(actions[0].isEnabled, 5)
         actions[0].trigger()
@@ -145,7 +148,8 @@ class Hands:
     def pick(self, point: tuple[float, float, float], modifier: int = QtCore.Qt.NoModifier) -> None:
         """Click in the 3D view where a point of the document is seen."""
         view = Gui.ActiveDocument.ActiveView
-        viewport = view.graphicsView().viewport()
+        window = view.graphicsView()  # held: in Qt 6 its viewport goes with the name of the window
+        viewport = window.viewport()
         (x, y), (width, height) = view.getPointOnScreen(FreeCAD.Vector(*point)), view.getSize()
         place = QtCore.QPoint(round((x + 0.5) / width * viewport.width()),
                               round((1 - (y + 0.5) / height) * viewport.height()))  # the view's pixels may be smaller

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the GUI tests inside FreeCAD and leaves it with pytest's exit code, whatever happens."""
+import ctypes
 import os
 import sys
 import traceback
 from pathlib import Path
 
 import pytest
-from PySide2 import QtCore
+from PySide import QtCore
 
 
 def run() -> None:
@@ -18,6 +19,7 @@ def run() -> None:
         traceback.print_exc()
     sys.stdout.flush()
     sys.stderr.flush()
+    ctypes.CDLL(None).fflush(None)  # FreeCAD 1.1 holds what it prints back
     os._exit(code)
 
 

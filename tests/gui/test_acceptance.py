@@ -9,9 +9,12 @@ import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.scan.sensor.files import write_ply
+
+QtTest = qt("QtTest")
 
 TOLERANCE = 0.05
 

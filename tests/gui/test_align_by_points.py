@@ -6,9 +6,9 @@ import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 import pytest
-from PySide2 import QtWidgets
 
 from ffds_workbench.gui.commands.align_by_points import AlignByPoints
+from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.objects.scans import scan_points
 
 CORNERS = ((12.0, 12.0, 5.0), (44.0, 12.0, 5.0), (12.0, 28.0, 5.0))

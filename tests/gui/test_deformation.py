@@ -14,8 +14,8 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands import COMMANDS
 from ffds_workbench.gui.commands.align_by_points import AlignByPoints
 from ffds_workbench.gui.commands.align_scan import AlignScan
@@ -27,7 +27,10 @@ from ffds_workbench.gui.commands.load_example import LoadExample
 from ffds_workbench.gui.commands.show_deviation import ShowDeviation
 from ffds_workbench.gui.commands.show_lattice import ShowLattice
 from ffds_workbench.gui.commands.simulate_scan import SimulateScan
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects.scans import scan_points
+
+QtTest = qt("QtTest")
 
 TOLERANCE = 0.05
 
@@ -365,7 +368,7 @@ def test_every_command_has_its_icon_and_texts():
 
 def test_starting_freecad_loads_nothing_heavy():
     code = ("import sys; sys.path.insert(0, '.'); sys.modules['FreeCAD'] = sys; import ffds_workbench.objects.views; "
-            "print([name for name in ('numpy', 'scipy', 'Part', 'PySide2') if name in sys.modules])")
+            "print([name for name in ('numpy', 'scipy', 'Part', 'PySide2', 'PySide6') if name in sys.modules])")
     root = __import__("ffds_workbench").ROOT
     done = subprocess.run(["/usr/bin/env", "python3", "-c", code], cwd=root, capture_output=True, text=True)
     assert done.stdout.strip() == "[]", sys.version + done.stderr

@@ -7,13 +7,16 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands import COMMANDS
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.commands.load_example import LoadExample
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects import scans
+
+QtTest = qt("QtTest")
 
 THICKNESS, NOISE = 3.0, 0.1
 UPRIGHT = (25.0, 0.0, 20.0)
@@ -108,8 +111,9 @@ def test_enter_ends_the_editing_of_a_number_and_esc_closes_the_panel_from_anywhe
     hands.wait(500)
     assert Gui.Control.activeDialog() and box.value() == 7 and len(plate_document.Objects) == 2
     Gui.getMainWindow().activateWindow()
-    Gui.ActiveDocument.ActiveView.graphicsView().viewport().setFocus()
-    QtTest.QTest.keyClick(Gui.ActiveDocument.ActiveView.graphicsView().viewport(), QtCore.Qt.Key_Escape)
+    window = Gui.ActiveDocument.ActiveView.graphicsView()
+    window.viewport().setFocus()
+    QtTest.QTest.keyClick(window.viewport(), QtCore.Qt.Key_Escape)
     hands.until(lambda: not Gui.Control.activeDialog(), 5)
     assert len(plate_document.Objects) == 2
 

@@ -9,13 +9,13 @@ import xml.etree.ElementTree as ElementTree
 import FreeCAD
 import FreeCADGui as Gui
 import pytest
-from PySide2 import QtCore, QtWidgets
 
 from ffds_workbench import ROOT
 from ffds_workbench.gui.commands import COMMANDS
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.preferences import Preferences, preferences
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.gui.translating import TRANSLATIONS, said
 
 BEHIND = 5

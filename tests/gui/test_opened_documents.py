@@ -10,9 +10,9 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtWidgets
 
 from ffds_workbench.brep.model_files import model_file
+from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.gui.seams_view import SeamsView
 from ffds_workbench.gui.view_providers import AsBuiltView
 from ffds_workbench.objects.as_built import AsBuilt

@@ -7,14 +7,17 @@ import FreeCADGui as Gui
 import numpy as np
 import Part
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands.add_trajectory import AddTrajectory
 from ffds_workbench.gui.commands.export_program import ExportProgram
 from ffds_workbench.gui.commands.find_seams import FindSeams
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.gui.view3d.seams_drawing import FAIL, PASS, verdict_colours
 from ffds_workbench.objects import actions
 from ffds_workbench.objects.seams import stations_of, wishes_of
+
+QtTest = qt("QtTest")
 
 
 @pytest.fixture

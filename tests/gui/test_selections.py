@@ -10,12 +10,12 @@ import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 import pytest
-from PySide2 import QtWidgets
 
 from ffds_workbench.gui.commands.align_scan import AlignScan
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.commands.show_deviation import ShowDeviation
+from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.objects import scans
 
 TOLERANCE = 0.05

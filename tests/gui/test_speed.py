@@ -8,13 +8,16 @@ import time
 import FreeCADGui as Gui
 import numpy as np
 import pytest
-from PySide2 import QtCore, QtTest, QtWidgets
 
+from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.commands.load_example import LoadExample
 from ffds_workbench.gui.commands.show_deviation import ShowDeviation
+from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects import scans
+
+QtTest = qt("QtTest")
 
 STEP, STALL = 0.1, 0.5
 """Seconds: of one step of the preview, and of the longest stop of FreeCAD while it computes."""

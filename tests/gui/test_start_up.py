@@ -18,7 +18,7 @@ def start(home) -> float:
     """Seconds of the processor that FreeCAD takes until its window is there."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     script = home / "leave.py"
-    script.write_text("import os\nfrom PySide2 import QtCore\nQtCore.QTimer.singleShot(0, lambda: os._exit(7))\n")
+    script.write_text("import os\nfrom PySide import QtCore\nQtCore.QTimer.singleShot(0, lambda: os._exit(7))\n")
     done = subprocess.run(["freecad", str(script)], env={**os.environ, "FREECAD_USER_HOME": str(home)}, timeout=60,
                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import FreeCADGui as Gui
-from PySide2 import QtCore, QtWidgets
+
+from ffds_workbench.gui.qt import QtCore, QtWidgets, execute
 
 
 def _report_view() -> str:
     loop = QtCore.QEventLoop()
     QtCore.QTimer.singleShot(300, loop.quit)
-    loop.exec_()
+    execute(loop)
     views = Gui.getMainWindow().findChildren(QtWidgets.QTextEdit, "Report view")
     return "\n".join(view.toPlainText() for view in views)
 

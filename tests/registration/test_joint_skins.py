@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Which skin of a sheet a scan point shows, where the scan brings no normals."""
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -26,7 +28,7 @@ def test_both_skins_of_a_thin_sheet_are_told_apart(thickness, noise, density):
     problem = make_problem(joint_part(read(Part.makeBox(*size, thickness))), scan, JointSettings(), {})
     chosen = np.random.default_rng(problem.settings.seed).permutation(len(scan))[: len(problem.sample)]
     assert (scan[chosen] == problem.sample).all()
-    sides, told = candidate_outward_normals(problem, 3.0)
+    sides, told = candidate_outward_normals(replace(problem, lengths=replace(problem.lengths, reach=3.0)))
     right = np.sign(sides[0][:, 2]) == np.where(upper[chosen], 1.0, -1.0)
     # Around the rims normals turn: a neighbourhood is half a thickness wide, and 0.6 are to the next point with one.
     assert len(sides) == 1 and not told and right.mean() > 1 - 1.1 * thickness * 2 * size.sum() / size.prod()
@@ -82,7 +84,7 @@ def test_no_point_of_the_outside_is_taken_for_the_inside(noise):
     """Noise of a sixth of the wall carries points over its middle; their neighbours tell on which side they are."""
     points, outward = seen_from_outside(THREE, noise, moved, 20_000)
     problem = make_problem(joint_part(read(tube())), points, JointSettings(), {})
-    sides, _ = candidate_outward_normals(problem, 3.0)
+    sides, _ = candidate_outward_normals(replace(problem, lengths=replace(problem.lengths, reach=3.0)))
     assert len(sides) == 1
     every = outward_normals_of_all(problem, sides[0])
     if noise < WALL / 6:

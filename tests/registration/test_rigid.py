@@ -26,7 +26,7 @@ from ffds_workbench.registration.rigid.deformation.displacement_field import Dis
 from ffds_workbench.registration.rigid.refine.scan_rims import ScanEnds, find_scan_ends, points_near_rims
 from ffds_workbench.registration.rigid.symmetry import symmetry_of
 from ffds_workbench.registration.rigid.scan_unit import plausible_scales
-from ffds_workbench.registration.scan_sketch import find_table, sketch_of
+from ffds_workbench.registration.scan_points import sketch_of, table_of_sketch
 from ffds_workbench.scan.sensor import SensorSettings, View, simulate
 
 FAR, TURNED = 1.0, np.deg2rad(0.5)
@@ -287,7 +287,7 @@ def test_table_with_most_of_the_points(bracket):
 def test_no_table_where_there_is_none(bracket):
     target, scan = bracket
     rng = np.random.default_rng(0)
-    assert find_table(sketch_of(scan, rng), target.largest_projection, rng) is None
+    assert table_of_sketch(sketch_of(scan, rng), target.largest_projection, rng) is None
 
 
 @pytest.mark.parametrize("mode", ["fine", "global"])

@@ -20,7 +20,7 @@ from ffds_workbench.registration.rigid import (AMBIGUOUS, FAILED, OK, RigidSetti
 from ffds_workbench.registration.rigid.evidence import Evidence, LooseScan, match_scan, weigh_match
 from ffds_workbench.registration.rigid.search import propose, starts_of
 from ffds_workbench.registration.rigid.verdict import Answer, alignment_of
-from ffds_workbench.registration.scan_sketch import Plane, Sketch, sketch_of
+from ffds_workbench.registration.scan_points import Sketch, TablePlane, sketch_of
 
 A, B, C = 60.0, 40.0, 20.0
 UP = np.array([0.0, 0.0, 1.0])
@@ -65,7 +65,7 @@ def top(count: int) -> np.ndarray:
     return np.column_stack([np.random.default_rng(1).uniform(0, (A, B), (count, 2)), np.full(count, C)])
 
 
-def weighed(part, points: np.ndarray, normals: np.ndarray, table: Plane | None = None, rounds=()) -> Evidence:
+def weighed(part, points: np.ndarray, normals: np.ndarray, table: TablePlane | None = None, rounds=()) -> Evidence:
     scan = LooseScan(part, sketch(points, normals), table)
     return weigh_match(scan, np.eye(4), normals, match_scan(scan, np.eye(4), normals, rounds)[0])
 
@@ -105,7 +105,7 @@ def test_what_lies_behind_the_table_is_pierced(box):
     of the walls."""
     total, walls = 2 * (A * B + B * C + A * C), 2 * (A + B) * C
     depth = 0.04 * np.sqrt(A * A + B * B + C * C)
-    found = weighed(box, top(500), np.tile(UP, (500, 1)), Plane(UP, 15.0, 0.1))
+    found = weighed(box, top(500), np.tile(UP, (500, 1)), TablePlane(UP, 15.0, 0.1, 0.1))
     assert found.pierced == pytest.approx((A * B + walls * (15.0 - depth) / C) / total, abs=0.03)
 
 

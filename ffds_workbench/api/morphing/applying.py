@@ -14,7 +14,7 @@ from ...brep import workpiece
 from ...brep.folding import refuse_folds
 from ...brep.model_files import Model
 from ...errors import InputError
-from ...fields import Field, Morphing, displacements
+from ...fields import VectorField, Morphing, displacements
 from ...output import replacing
 from ...report import record, table
 from ...report.file_certificate import FileCertificate
@@ -42,7 +42,7 @@ class MorphedModel(CertifiedModel):
     tolerance : in mm, how closely vectors had to be followed; None where none was given
     """
 
-    field: Field
+    field: VectorField
     morphing: Morphing
     factor: float
     tolerance: float | None
@@ -78,7 +78,7 @@ class MorphedModel(CertifiedModel):
         return "\n".join(lines) + "\n\n" + table.topology_table(self.certificate.as_dict())
 
 
-def morph(model: Model | Part.Shape | str | Path | Any, field: Field | str | Path, factor: float = 1.0,
+def morph(model: Model | Part.Shape | str | Path | Any, field: VectorField | str | Path, factor: float = 1.0,
           tolerance: float | None = None, ignore: float = 0.0, progress: Progress | None = None) -> MorphedModel:
     """Deform a model by a field; the topology stays.
 

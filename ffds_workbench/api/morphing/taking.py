@@ -9,7 +9,7 @@ import Part
 
 from ...brep import workpiece
 from ...brep.model_files import Model
-from ...fields import Field, read_field, write_field
+from ...fields import VectorField, read_field, write_field
 from ...fields.fe_results import field_of_result_object, read_result
 from ...fields.meshes import field_between_meshes
 from ...fields.model_pair import field_between
@@ -18,7 +18,7 @@ from ..inputs import as_model
 
 
 def field_of_models(nominal: Model | Part.Shape | str | Path | Any, as_built: Model | Part.Shape | str | Path | Any
-                    ) -> Field:
+                    ) -> VectorField:
     """The field that moves a nominal model into another one of the same topology.
 
     Parameters
@@ -32,7 +32,7 @@ def field_of_models(nominal: Model | Part.Shape | str | Path | Any, as_built: Mo
     return field_between(workpiece.read(as_model(nominal).shape), workpiece.read(as_model(as_built).shape))
 
 
-def field_of_meshes(nominal: str | Path, displaced: str | Path | None = None, step: int | None = None) -> Field:
+def field_of_meshes(nominal: str | Path, displaced: str | Path | None = None, step: int | None = None) -> VectorField:
     """The field of a mesh: from two files with the same numbering, or from one result of finite elements.
 
     Parameters
@@ -50,17 +50,17 @@ def field_of_meshes(nominal: str | Path, displaced: str | Path | None = None, st
     return field_between_meshes(Path(nominal), Path(displaced))
 
 
-def field_of_result(result: Any) -> Field:
+def field_of_result(result: Any) -> VectorField:
     """The field of a mechanical result of FreeCAD's FEM workbench, a document object (InputError if it has none)."""
     return field_of_result_object(result)
 
 
-def as_field(field: Field | str | Path) -> Field:
+def as_field(field: VectorField | str | Path) -> VectorField:
     """A field, or the file of one."""
-    return field if isinstance(field, Field) else read_field(field)
+    return field if isinstance(field, VectorField) else read_field(field)
 
 
-def save_field(field: Field, path: str | Path, inputs: tuple[str | Path, ...] = ()) -> None:
+def save_field(field: VectorField, path: str | Path, inputs: tuple[str | Path, ...] = ()) -> None:
     """Write a field as FIELD.csv.
 
     Parameters

@@ -10,7 +10,7 @@ from ...errors import InputError
 from ..terminal import ProgressLine
 
 if TYPE_CHECKING:
-    from ...fields import Field
+    from ...fields import VectorField
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -39,7 +39,7 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     return f"Field        {len(field)} vectors, up to {field.largest:.4g} mm{told}\n\nWritten: {options.out}"
 
 
-def _taken(options: argparse.Namespace, progress: ProgressLine) -> Field:
+def _taken(options: argparse.Namespace, progress: ProgressLine) -> VectorField:
     from ... import api
 
     count = len(options.models)

@@ -15,11 +15,12 @@ from .find_seams import FindSeams
 from .import_scan import ImportScan
 from .load_example import LoadExample
 from .repoint_references import RepointReferences
+from .scan.prepare_scan import PrepareScan
 from .show_deviation import ShowDeviation
 from .show_lattice import ShowLattice
 from .simulate_scan import SimulateScan
 
-GROUPS = ((ImportScan, SimulateScan, AlignScan, AlignByPoints),
+GROUPS = ((ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoints),
           (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
           (ShowDeviation,),
           (FindSeams, ExportProgram, AddTrajectory),
@@ -28,7 +29,7 @@ GROUPS = ((ImportScan, SimulateScan, AlignScan, AlignByPoints),
 COMMANDS = tuple(command for group in GROUPS for command in group)
 TOOLBAR = [name for group in GROUPS for name in (*(command.NAME for command in group), "Separator")][:-1]
 CONTEXT = [command.NAME for command in (
-    DeformFaces, DeformWorkpiece, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
+    DeformFaces, DeformWorkpiece, PrepareScan, AlignScan, AlignByPoints, ShowDeviation, ShowLattice, RepointReferences,
     ExportAsBuilt, FindSeams, ExportProgram, AddTrajectory)]
 
 

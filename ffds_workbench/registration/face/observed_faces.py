@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..footpoints import surface_coordinates
-from ..scan_normals import faces_alike, scan_normals
+from ..scan_points import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .robust_fit import dense_layers
 

@@ -16,7 +16,7 @@ from ...errors import RefusedError
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..footpoints import SurfaceCoordinates
-from ..scan_normals import faces_alike, scan_normals
+from ..scan_points import faces_alike, scan_normals
 from ..uv_raster import Raster, make_raster
 from .control_lattice import displacement_lattice
 from .face_result import FaceRegistration

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..robust_weights import NOISE_ENDS_SIGMAS
+
 _STIFF = 30.0
 """The reach over the scatter of the points about the shape while it is still stiff (unit)."""
 _BESIDE_EDGE = 0.01
@@ -12,8 +14,6 @@ _MODEL = 3e-4
 """Of the reach: what a lattice and linear matching leave of a displacement at best (unit: one in a thousand of it)."""
 _CLEAN = 3e-3
 """Of the reach: noise below which a scan counts as clean (unit: ten times what the model leaves at best)."""
-_FARTHEST_IN_NOISES = 4.0
-"""Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _POSE = 1 / 3
 """Of the reach: how far a solid may sit from its place as a whole (unit)."""
 _TOGETHER = 3e-3
@@ -63,7 +63,7 @@ class Lengths:
     @property
     def farthest_noise(self) -> float:
         """How far from the part noise alone carries points."""
-        return _FARTHEST_IN_NOISES * self.noise
+        return NOISE_ENDS_SIGMAS * self.noise
 
     @property
     def pose(self) -> float:

@@ -38,7 +38,7 @@ class LiveJoint:
         self._problem = make_problem(part, scan[some], _coarse(settings), {},
                                      None if scan_normals is None else scan_normals[some])
         state = start(self._problem)
-        sides, _ = candidate_outward_normals(self._problem, self._problem.lengths.reach)
+        sides, _ = candidate_outward_normals(self._problem)
         self._state = replace(state, outward=sides[0])
         for stage in settings.stages(self._problem.lengths):
             if not stage.all_points:

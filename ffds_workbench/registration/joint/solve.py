@@ -82,7 +82,7 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
 def _stiff_shape(problem: Problem, steps: tuple[Stage, ...]) -> State:
     """The end of the stiff stages, with the right skin of a sheet on the scan."""
     state = start(problem)
-    sides, told = candidate_outward_normals(problem, problem.lengths.reach)
+    sides, told = candidate_outward_normals(problem)
     return choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, outward=outward), len(sides) > 1)
                                  for outward in sides], told)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import Array
-from ..scan_sketch import find_table, sketch_of
+from ..scan_points import sketch_of, table_of_sketch
 from .alignment_result import FAILED, Alignment
 from .evidence import LooseScan, match_scan, weigh_match
 from .hypothesis import Hypothesis, choose, clearly_right, is_good, matched_on, promising, refined
@@ -86,9 +86,9 @@ def _look_at(target: Target, points: Array, effort: Effort, generator: np.random
     # a point too far from the centroid cannot lie on the part
     table = None
     if extent > effort.table_from * target.size:
-        table = find_table(sketch, target.largest_projection, generator)
+        table = table_of_sketch(sketch, target.largest_projection, generator)
     if table is not None:
-        points = points[table.heights(points) > table.tolerance]
+        points = points[table.in_front(points)]
         sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
     return LooseScan(target, sketch, table)
 

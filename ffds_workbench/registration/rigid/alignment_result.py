@@ -33,6 +33,7 @@ class Alignment:
     ----------
     T_model_scan : (4, 4) for the scan in mm, after ``scale``
     verdict : "ok", "ambiguous" (several poses fit alike: see ``poses``) or "failed"
+    certainty : what the verdict rests on, see `Evidence.certainty`; 1 is perfect
     confidence : 0…1, how far the pose is from failing and from the next best one
     poses : the poses that fit alike, the chosen one first
     reach : distance in mm within which a point counts as on the part
@@ -49,6 +50,7 @@ class Alignment:
 
     T_model_scan: Array
     verdict: str
+    certainty: float
     confidence: float
     poses: tuple[CandidatePose, ...]
     reach: float

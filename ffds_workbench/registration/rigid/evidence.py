@@ -10,8 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Array
 from ..motions import apply
-from ..parallel import workers
-from ..scan_sketch import Plane, Sketch
+from ..scan_points import Sketch, TablePlane, workers
 from .deformation import DisplacementField, Match, match_deformed
 from .model import Target
 from .settings import Rounds
@@ -33,7 +32,7 @@ class LooseScan:
 
     target: Target
     sketch: Sketch
-    table: Plane | None
+    table: TablePlane | None
 
     @property
     def hides_sides(self) -> bool:
@@ -105,7 +104,7 @@ def weigh_match(scan: LooseScan, pose: Array, normals: Array, found: Match) -> E
     pierced = 0.0
     if scan.table is not None:
         in_scan = apply(np.linalg.inv(pose), target.even.points)
-        depth = max(scan.table.tolerance, settings.below_table * target.size)
+        depth = max(scan.table.below, settings.below_table * target.size)
         pierced = float(np.mean(scan.table.heights(in_scan) < -depth))
     off = (apply(pose, scan.sketch.points) - found.points)[agree]
     bent = float(np.sqrt(np.mean(off**2) * 3.0)) / target.size if agree.any() else 0.0

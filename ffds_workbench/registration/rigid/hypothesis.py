@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..motions import angle, apply, shift
-from ..scan_sketch import Sketch
+from ..scan_points import Sketch
 from .deformation import DisplacementField, Match
 from .evidence import Evidence, LooseScan, match_scan, misfit_of, weigh_match
 from .model import Target

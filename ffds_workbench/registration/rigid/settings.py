@@ -47,7 +47,6 @@ class RimSettings:
     band: tuple[float, float] = (1.0, 5.0)  # steps inside the outermost point; theory: where no end thins the points
     least_band_points: int = 5           # theory: the density is known to 45 %, 1/√n
     largest_rank: int = 4                # theory: the k-th random point lies k/density inside the end, ±√k/density
-    within_noise: float = 0.4            # σ; theory: half of a normal curve's points lie within 0.67 of the end
     wall_steps: float = 2.0              # steps; unit: a wall beside an edge is at least as high
     wall_noise: float = 0.4              # σ along the rim, whose face points may be a wall's; unit: mixed pixels
     telling: int = 3                     # of 5 stretches that have to tell; theory: a majority

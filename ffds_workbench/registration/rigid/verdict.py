@@ -52,7 +52,7 @@ def alignment_of(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis]
         verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
     sure = float(np.clip((evidence.certainty - settings.least_certainty) / (1.0 - settings.least_certainty), 0.0, 1.0))
     confidence = sure / (len(poses) if verdict == AMBIGUOUS else 1)
-    return Alignment(best.pose, verdict, confidence, poses, reach, float(near.mean()),
+    return Alignment(best.pose, verdict, evidence.certainty, confidence, poses, reach, float(near.mean()),
                      float(np.sqrt(np.mean(height**2))), evidence.explained, evidence.coverage, symmetry.text(), scale,
                      unit_name(scale), scan.table is not None, reason)
 
@@ -94,4 +94,4 @@ def _rivals(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis], sym
 
 def failed_alignment(reason: str) -> Alignment:
     """An alignment that found no pose, for that ``reason``."""
-    return Alignment(np.eye(4), FAILED, 0.0, (), 0.0, 0.0, 0.0, 0.0, 0.0, "", 1.0, "mm", False, reason)
+    return Alignment(np.eye(4), FAILED, 0.0, 0.0, (), 0.0, 0.0, 0.0, 0.0, 0.0, "", 1.0, "mm", False, reason)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
 
 from ...registration.arrays import Array
 from . import library
@@ -13,23 +14,43 @@ _REACH, _CORE = 5.0, 6
 _SHARE = 0.05
 """A piece with fewer points than this share of the largest piece's is clutter: less than any side of a part, which may
 come in pieces where the scan has gaps."""
+_SHARE_WITHIN = 0.0025
+"""The same for a piece within the outline, seen along the table's normal, of what stands on it: a leg under a plate, of
+which the sensor does not see the top. Nothing else can be there."""
 _NEIGHBOURS, _DEVIATIONS = 16, 5.0
 """An outlier's mean distance to so many neighbours is so many standard deviations beyond the mean of all points."""
 
 
-def in_large_pieces(points: Array, spacing: float) -> tuple[NDArray[np.bool_], int]:
+def in_large_pieces(points: Array, spacing: float, up: Array | None = None) -> tuple[NDArray[np.bool_], int]:
     """Which points (n, 3) near the origin are of a large piece, and how many pieces are large.
 
-    The pieces are those of open3d's DBSCAN, among one point of each cube with the spacing as its edge.
+    The pieces are those of open3d's DBSCAN, among one point of each cube with the spacing as its edge. ``up`` (3,) is
+    the normal of a table that the part stands on, where there is one: what is within the part's outline is the part's.
     """
     open3d = library.open3d("removing clutter")
     if spacing <= 0.0:
         return np.zeros(len(points), dtype=bool), 0
     first, cube = _cubes(points, spacing)
-    piece = np.asarray(library.cloud(open3d, points[first]).cluster_dbscan(_REACH * spacing, _CORE), dtype=int)[cube]
+    piece_of_cube = np.asarray(library.cloud(open3d, points[first]).cluster_dbscan(_REACH * spacing, _CORE), dtype=int)
+    piece = piece_of_cube[cube]
     counts = np.bincount(piece[piece >= 0], minlength=1)
     large = counts >= max(_SHARE * counts.max(), 1.0)
+    if up is not None and not large.all():
+        within = _within_outline(points[first], piece_of_cube, large, up)
+        large |= within & (counts >= _SHARE_WITHIN * counts.max())
     return (piece >= 0) & large[piece], int(large.sum())
+
+
+def _within_outline(points: Array, piece: NDArray[np.int_], large: NDArray[np.bool_], up: Array) -> NDArray[np.bool_]:
+    """Which pieces lie within the outline of the large ones, seen along ``up``; ``piece`` (n,) is negative for none."""
+    flat = points @ np.linalg.svd(up[None])[2][1:].T
+    of_piece = piece >= 0
+    try:
+        sides = ConvexHull(flat[of_piece & large[piece]]).equations
+    except QhullError:  # a line
+        return np.zeros(len(large), dtype=bool)
+    inside = (flat[of_piece] @ sides[:, :2].T + sides[:, 2] <= 0.0).all(axis=1)
+    return np.bincount(piece[of_piece], inside, len(large)) > 0.5 * np.bincount(piece[of_piece], minlength=len(large))
 
 
 def surrounded(points: Array) -> NDArray[np.bool_]:

@@ -69,13 +69,19 @@ class PreparationSettings:
 
 @dataclass(frozen=True)
 class PreparationStep:
-    """One step: its name, the points before and after it, and what it found, for the report."""
+    """One step: its name, how many points there were before it, those after it (n, 3) in the scan's coordinates, and
+    what it found, for the report."""
 
     name: str
     before: int
-    after: int
+    points: Array = field(repr=False)
     found: Mapping[str, Any] = field(default_factory=dict)
     note: str = ""
+
+    @property
+    def after(self) -> int:
+        """How many points the step has left."""
+        return len(self.points)
 
     def as_dict(self) -> dict[str, Any]:
         """As the report has it."""

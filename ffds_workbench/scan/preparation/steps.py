@@ -36,9 +36,13 @@ class _Work:
         """Go on with some of the points (RefusedError with the sentence ``nothing`` where there is none)."""
         if not kept.any():
             raise RefusedError(nothing or f"The step '{name}' would leave nothing of the scan: leave it out.")
-        self.steps.append(PreparationStep(name, len(kept), int(kept.sum()), found or {}, note))
         self.placed, self.points, self.sensors = self.placed[kept], self.points[kept], self.sensors[kept]
         self.normals = None if self.normals is None else self.normals[kept]
+        self.record(name, len(kept), found, note)
+
+    def record(self, name: str, before: int, found: dict[str, Any] | None = None, note: str = "") -> None:
+        """A step was done."""
+        self.steps.append(PreparationStep(name, before, self.placed, found or {}, note))
 
 
 def prepare(scans: Sequence[PointCloud], settings: PreparationSettings, surface: PartSurface | None = None,
@@ -73,13 +77,13 @@ def prepare(scans: Sequence[PointCloud], settings: PreparationSettings, surface:
     if settings.normals:
         progress("Estimating normals")
         work.normals = thinning.estimated_normals(work.points, _sensors(work, settings))
-        work.steps.append(PreparationStep("normals", len(work.points), len(work.points)))
+        work.record("normals", len(work.points))
     if settings.spacing is not None:
         progress("Thinning")
         before = len(work.points)
         work.points, work.normals = thinning.thinned(work.points, work.normals, settings.spacing)
         work.placed = work.points + work.origin
-        work.steps.append(PreparationStep("spacing", before, len(work.points), {"spacing": settings.spacing}))
+        work.record("spacing", before, {"spacing": settings.spacing})
     scan = PointCloud(work.placed, sum(scan.dropped for scan in scans), scans[0].unit, work.normals)
     return PreparedScan(scan, tuple(work.steps), (first_spacing, spacing_of(work.points)))
 
@@ -94,8 +98,8 @@ def _fused(scans: Sequence[PointCloud], settings: PreparationSettings, names: Se
               for scan, pose in zip(scans, poses, strict=True)]
     origin = np.round(placed[0].points.mean(axis=0))
     counts = [len(scan.points) for scan in placed]
-    steps = []
-    if settings.poses is not None and len(scans) > 1:
+    matched = settings.poses is not None and len(scans) > 1
+    if matched:
         progress("Matching the scans")
         corrections = fusing.agreed_poses([scan.points - origin for scan in placed], names)
         about = np.eye(4), np.eye(4)
@@ -103,29 +107,32 @@ def _fused(scans: Sequence[PointCloud], settings: PreparationSettings, names: Se
         corrections = [about[0] @ correction @ about[1] for correction in corrections]
         placed = [scan.moved(correction) for scan, correction in zip(placed, corrections, strict=True)]
         poses = tuple(correction @ pose for correction, pose in zip(corrections, poses, strict=True))
-        steps.append(PreparationStep("fuse", sum(counts), sum(counts), {"scans": [
-            {"scan": name, "T_common_scan": pose.tolist()} for name, pose in zip(names, poses, strict=True)]}))
     points = np.concatenate([scan.points for scan in placed])
-    return _Work(points, points - origin, fused([scan.normals for scan in placed], counts),
-                 np.repeat([pose[:3, 3] - origin for pose in poses], counts, axis=0), origin, steps)
+    work = _Work(points, points - origin, fused([scan.normals for scan in placed], counts),
+                 np.repeat([pose[:3, 3] - origin for pose in poses], counts, axis=0), origin, [])
+    if matched:
+        work.record("fuse", len(points), {"scans": [{"scan": name, "T_common_scan": pose.tolist()}
+                                                    for name, pose in zip(names, poses, strict=True)]})
+    return work
 
 
 def _clean(work: _Work, settings: PreparationSettings, progress: Progress) -> None:
     """Take away the table, clutter and outliers, in this order: each is told more surely without the one before."""
-    spacing = spacing_of(work.points)
+    spacing, up = spacing_of(work.points), None
     if settings.remove_plane:
         progress("Looking for the table")
         plane = table.find_table(work.points)
         if plane is None:
-            count = len(work.points)
-            work.steps.append(PreparationStep("plane", count, count, note="no plane was found that the rest stands on"))
+            missing = "no plane was found that the rest stands on"
+            work.record("plane", len(work.points), note=missing)
         else:
+            up = plane.normal
             work.keep("plane", plane.in_front(work.points), {
                 "normal": plane.normal.tolist(), "height": plane.height + float(plane.normal @ work.origin),
                 "thickness": plane.below + plane.above})
     if settings.remove_clutter:
         progress("Looking for clutter")
-        kept, large = clutter.in_large_pieces(work.points, spacing)
+        kept, large = clutter.in_large_pieces(work.points, spacing, up)
         work.keep("clutter", kept, {"pieces": large},
                   nothing="The scan falls into single points: its clutter cannot be told from the part.")
     if settings.remove_outliers:

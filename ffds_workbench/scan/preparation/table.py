@@ -2,14 +2,12 @@
 """The plane that a part stands on, told from the part's own planes by what lies around it."""
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ...registration.arrays import Array
 from ...registration.robust_weights import robust_sigma
+from ...registration.scan_points import TablePlane
 from . import library
 
 _SAMPLE = 20000
@@ -24,27 +22,6 @@ times its noise."""
 _IN_FRONT, _WITHIN, _WIDER = 3.0, 0.9, 1.1
 """Theory: what stands on a table is on one side of it, so many times as many points as behind; so much of that lies
 within the table's outline, and the outline is so many times as large: a side of a part is as large as the part."""
-
-
-@dataclass(frozen=True)
-class TablePlane:
-    """A plane that something stands on.
-
-    Attributes
-    ----------
-    normal : (3,) unit, towards what stands on it
-    height : of the plane along the normal, mm
-    below, above : how far its points reach behind it and in front of it, mm
-    """
-
-    normal: Array
-    height: float
-    below: float
-    above: float
-
-    def in_front(self, points: Array) -> NDArray[np.bool_]:
-        """Which points (n, 3) are neither of the table nor behind it."""
-        return points @ self.normal - self.height > self.above
 
 
 def find_table(points: Array) -> TablePlane | None:
@@ -93,7 +70,7 @@ def _reach(heights: Array, noise: float) -> float:
 
 def _stood_on(plane: TablePlane, points: Array) -> bool:
     """Whether the points that are not of the plane stand on it."""
-    heights = points @ plane.normal - plane.height
+    heights = plane.heights(points)
     front = heights > plane.above
     own = ~front & (heights > -plane.below)
     if front.sum() < 10 or own.sum() < 10 or front.sum() < _IN_FRONT * (heights < -plane.below).sum():

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
+from ...scan_points import end_of_scan, outermost_points, weight_of_end
 from ..lengths import Lengths
 from ..priors import SharedEdgePlaces
 from ..surfaces import FacePlaces, SpanGrid, by_face, concatenate
@@ -29,9 +30,8 @@ _SHARP_COSINE = 0.7
 _ASIDE = float(np.sqrt(2.0) - 1) / 2
 """Of the step between samples: so far along the edge the cell beside a sample is looked for. No ratio of whole numbers:
 samples and cells lie on grids, and rounding must not choose between two cells that are as near."""
-_LARGEST_RANK, _WITHIN_NOISE = 3, 0.4
-"""The edge lies beyond the outermost point by the spacing of one point, as for randomly placed points. Noise carries
-points over the edge: where more than one lies within this part of the noise, the second or third outermost is used."""
+_LARGEST_RANK = 3
+"""Noise carries points over the edge: up to the third outermost is used, and no end is seen where there are fewer."""
 _DENSITY_BAND = (1.5, 6.0)
 """Distance inside the outermost points, in spacings, between which the density is counted."""
 _LEAST_BAND_POINTS = 12
@@ -214,25 +214,25 @@ def _one_side(points: Array, row: Index, edges: SharedEdgePlaces, seen: FacePlac
     on_other = (np.abs(np.einsum("nx,nx->n", local, beyond[row])) < 4 * spread[other.face[row]]) & (
         np.einsum("nx,nx->n", local, away[row]) < -first)
     unlike = ~on_seen & (on_other | (across > -first))
-    outermost = _from_top(row[on_seen], across[on_seen], count)
+    outermost, number = outermost_points(row[on_seen], across[on_seen], count, _LARGEST_RANK)
     inside = outermost[-1, row] - across
     population, strange, samples = (
         _running(np.nansum, edges.edge, values) for values in
         (_count(row[on_seen & (inside > first) & (inside < last)], count),
          _count(row[unlike], count), np.ones(count)))
     per_mm = np.maximum(population, 1.0) / samples / (last - first)
-    rank = np.clip(np.ceil(_WITHIN_NOISE * lengths.noise * per_mm), 1, _LARGEST_RANK).astype(int)
-    offset = outermost[rank - 1, np.arange(count)] + rank / per_mm
-    good = (sharp & (population >= _LEAST_BAND_POINTS) & (strange < _SEEN_BEYOND_SHARE * population)
+    offset, sigma = end_of_scan(outermost, per_mm, lengths.noise)
+    good = (sharp & (number >= _LARGEST_RANK) & (population >= _LEAST_BAND_POINTS)
+            & (strange < _SEEN_BEYOND_SHARE * population)
             & (np.abs(offset) < _largest_offset(lengths)))
     if not good.any():
         return nothing
-    sigma = np.hypot(_LEAST_UNCERTAINTY * spacing, np.sqrt(rank) / per_mm)
+    sigma = np.hypot(_LEAST_UNCERTAINTY * spacing, sigma)
     around = _running(np.nanmedian, edges.edge, np.where(good, offset, np.nan))
     off = np.abs(offset - around) / (_HUBER_SIGMAS * sigma)
     good &= off < _DISCARD_HUBERS
-    missing = 1 + (np.minimum(around, 0.0) / (_USUAL_LOSS * spacing)) ** 2
-    return out, np.where(good, offset, 0.0), np.where(good, 1.0 / (np.maximum(off, 1.0) * missing * sigma**2), 0.0)
+    weight = weight_of_end(around, sigma, _USUAL_LOSS * spacing) / np.maximum(off, 1.0)
+    return out, np.where(good, offset, 0.0), np.where(good, weight, 0.0)
 
 
 def _across(edges: SharedEdgePlaces, side: FacePlaces, sign: Array, control_points: Array) -> tuple[Array, Array]:
@@ -240,18 +240,6 @@ def _across(edges: SharedEdgePlaces, side: FacePlaces, sign: Array, control_poin
     normal = side.normals(control_points)
     out = sign[:, None] * np.cross(edges.along(side.nominal[0] + side.displacement(control_points)), normal)
     return normal, out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12)
-
-
-def _from_top(row: Index, value: Array, count: int) -> Array:
-    """The largest values of every row in falling order, (ranks, rows); NaN where there are fewer."""
-    order = np.lexsort((value, row))
-    end = np.searchsorted(row[order], np.arange(count), side="right")
-    start = np.searchsorted(row[order], np.arange(count), side="left")
-    enough = end - start >= _LARGEST_RANK
-    result = np.full((_LARGEST_RANK, count), np.nan)
-    for rank in range(_LARGEST_RANK):
-        result[rank, enough] = value[order[end[enough] - 1 - rank]]
-    return result
 
 
 def _count(row: Index, count: int) -> Array:

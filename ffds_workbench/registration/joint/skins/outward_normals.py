@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
+from ...robust_weights import NOISE_ENDS_SIGMAS
 from ..problem import Problem
 from ..surfaces import normals
 from .skin_points import SkinPoints, skin_points
@@ -37,20 +38,18 @@ _NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
 """The scan's normals are trusted on a smooth piece if their mean cosine with its own normals is above the first number,
 and at all only if such pieces hold the second share of the scan. Both sides are tried if the points contradict the
 normals on more than the third share."""
-_FARTHEST_IN_NOISES = 4.0
-"""Standard deviations that noise carries hardly any point: one in 16,000 (theory: normal distribution)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings (unit)."""
 
 
-def candidate_outward_normals(problem: Problem, reach: float) -> tuple[list[Array | None], bool]:
+def candidate_outward_normals(problem: Problem) -> tuple[list[Array | None], bool]:
     """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
 
-    ``reach`` is how far the scan may lie from the nominal part, in mm. Two of them where a large piece is in doubt, the
-    nearer side first, or, if the scan's normals tell the side, theirs; None where no sheet is so thin that its sides
-    could be mixed up, or the noise hides them. The second result is whether the scan's normals tell.
+    Two of them where a large piece is in doubt, the nearer side first, or, if the scan's normals tell the side, theirs;
+    None where no sheet is so thin that its sides could be mixed up, or the noise hides them. The second result is
+    whether the scan's normals tell.
     """
-    thickness = _thinnest(problem)
+    thickness, reach = _thinnest(problem), problem.lengths.reach
     if thickness > _TOO_THICK * reach:
         return [None], False
     inside = problem.cells.inside
@@ -87,7 +86,7 @@ def outward_normals_of_all(problem: Problem, outward: Array | None) -> Array | N
     problem : what stays the same while the solve runs
     outward : (m, 3) at the points of the sample, zero where they cannot be told
     """
-    if outward is None or _FARTHEST_IN_NOISES * problem.statistics.noise < 0.5 * _thinnest(problem):
+    if outward is None or NOISE_ENDS_SIGMAS * problem.statistics.noise < 0.5 * _thinnest(problem):
         return None
     return np.asarray(outward[cKDTree(problem.sample).query(problem.scan, workers=-1)[1]])
 

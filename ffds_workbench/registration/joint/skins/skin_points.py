@@ -8,8 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ...normal_sides import orient_normals
-from ...scan_normals import plane_normals
+from ...scan_points import orient_normals, plane_normals
 from ..data import ScanStatistics
 
 _LEAST_NEIGHBOURS, _LARGEST_NEIGHBOURS = 12, 100

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, cKDTree
 
 from ...arrays import Array
-from ...parallel import workers
+from ...scan_points import workers
 from ..settings import RigidSettings
 from .rims import Rims
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...arrays import Array
 from ...motions import apply
+from ...scan_points import end_of_scan, outermost_points, weight_of_end
 from ..model import Rims
 from ..settings import RimSettings
 
@@ -87,29 +88,22 @@ def find_scan_ends(rims: Rims, points: Array, entry: NDArray[np.intp], reach: fl
     offset, stretch = points - rims.points.take(entry, axis=0), rims.stretch[entry]
     beyond = np.einsum("ni,ni->n", offset, rims.outwards.take(entry, axis=0))
     height = np.abs(np.einsum("ni,ni->n", offset, rims.normals.take(entry, axis=0)))
-    far = reach + end * step
-    on = np.flatnonzero((height < tolerance) & (np.abs(beyond) < far))
-    on = on[np.argsort(2.0 * far * stretch[on] - beyond[on])]  # by stretch, and of each from the outermost one on
-    first = np.searchsorted(stretch[on], np.arange(count + 1))
-    first, number = first[:-1], np.diff(first)
-    outermost = np.full(count, -np.inf)
-    outermost[number > 0] = beyond[on[first[number > 0]]]
-    inside = (outermost[stretch[on]] - beyond[on]) / step
+    on = np.flatnonzero((height < tolerance) & (np.abs(beyond) < reach + end * step))
+    outermost, number = outermost_points(stretch[on], beyond[on], count, settings.largest_rank)
+    inside = (outermost[0, stretch[on]] - beyond[on]) / step
     band = np.bincount(stretch[on][(inside > begin) & (inside < end)], minlength=count)
     density = band / ((end - begin) * step)
     wall = (height >= tolerance) & (height < tolerance + 2.0 * settings.wall_steps * step)
-    wall &= np.abs(beyond - outermost[stretch]) < settings.wall_steps * step
+    wall &= np.abs(beyond - outermost[0, stretch]) < settings.wall_steps * step
     strange = np.bincount(stretch[wall], minlength=count)
     told = np.flatnonzero((band >= settings.least_band_points) & (number > settings.largest_rank)
                           & (strange < 1.0 + settings.wall_noise * noise * density))
-    density = density[told]
-    rank = np.clip(np.ceil(settings.within_noise * noise * density), 1, settings.largest_rank).astype(int)
-    gap = beyond[on[first[told] + rank - 1]] + rank / density
-    spread = np.sqrt((settings.uncertainty * noise) ** 2 + rank / density**2)
+    gap, spread = end_of_scan(outermost[:, told], density[told], noise)
+    spread = np.hypot(settings.uncertainty * noise, spread)
     seen = (np.abs(gap) < reach) & _agrees_with_neighbours(told, gap, spread, count, settings)
     told, gap, spread = told[seen], gap[seen], spread[seen]
-    weight = 1.0 / (spread * np.hypot(1.0, np.minimum(gap, 0.0) / (settings.usual_loss * noise))) ** 2
-    return ScanEnds(told, rims.middles[told], rims.outward_directions[told], gap, weight)
+    return ScanEnds(told, rims.middles[told], rims.outward_directions[told], gap,
+                    weight_of_end(gap, spread, settings.usual_loss * noise))
 
 
 def _agrees_with_neighbours(stretch: NDArray[np.intp], gap: Array, spread: Array, count: int,

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.spatial import cKDTree
 
-from .arrays import Array
+from ..arrays import Array
 from .parallel import workers
 
 _LEAST_AGREEMENT = 0.6

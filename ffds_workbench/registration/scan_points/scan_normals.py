@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .arrays import Array
-from .footpoints import SurfaceCoordinates
-from .uv_raster import Raster, dot
+from ..arrays import Array
+from ..footpoints import SurfaceCoordinates
+from ..uv_raster import Raster, dot
 
 _PLANE_NEIGHBOURS = 12
 _ALIKE_COSINE = 0.6

@@ -2,7 +2,7 @@
 """How many threads a nearest-neighbour search uses."""
 from __future__ import annotations
 
-from .arrays import Array
+from ..arrays import Array
 
 
 def workers(points: Array) -> int:

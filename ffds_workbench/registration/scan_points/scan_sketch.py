@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the search for a pose works with: a few thousand even points of the scan with normals, and the table found.
+"""What the search for a pose works with: a few thousand even points of the scan with normals.
 
 The normals of one connected piece of surface are turned to one side; which side is outside only the model can tell.
 """
@@ -10,12 +10,11 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError, cKDTree
+from scipy.spatial import cKDTree
 
-from .arrays import Array
+from ..arrays import Array
 from .normal_sides import orient_normals
 from .parallel import workers
-from .robust_weights import robust_sigma
 
 _POOL_SIZE = 40_000
 _POINT_COUNT, _FINER_FACTOR = 2_000, 4
@@ -65,26 +64,6 @@ class Sketch:
     def every(self, step: int) -> Sketch:
         """The same of fewer points, one of every ``step``."""
         return replace(self, points=self.points[::step], normals=self.normals[::step], piece=self.piece[::step])
-
-
-@dataclass(frozen=True)
-class Plane:
-    """A plane that the scan shows beside the part, with everything else on its positive side.
-
-    Attributes
-    ----------
-    normal : (3,) unit vector
-    offset : normal · x in mm
-    tolerance : points within it belong to the plane, mm
-    """
-
-    normal: Array
-    offset: float
-    tolerance: float
-
-    def heights(self, points: Array) -> Array:
-        """Signed distances of points (n, 3) from the plane, (n,) in mm."""
-        return points @ self.normal - self.offset
 
 
 def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_COUNT, pool_size: int = _POOL_SIZE,
@@ -201,42 +180,3 @@ def _flattest(scatter: Array) -> Array:
         vector = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
         vector = (inverse @ vector[:, :, None])[:, :, 0]
     return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300))
-
-
-def find_table(sketch: Sketch, shadow: float, generator: np.random.Generator) -> Plane | None:
-    """The plane that the part lies on or stands before, or None.
-
-    It holds a good share of the points, spreads wider than any side of the part could, and has all else on one side.
-
-    Parameters
-    ----------
-    sketch : even points of the whole scan
-    shadow : largest area in mm² that the part can cover on a plane
-    generator : draws the triples of points that planes are tried through
-    """
-    points, normals = sketch.points, sketch.normals
-    tolerance = max(5.0 * sketch.noise, 2e-3 * float(np.linalg.norm(np.ptp(points, axis=0))))
-    trial = generator.integers(0, len(points), 200)
-    height = points @ normals[trial].T - np.einsum("ni,ni->n", points[trial], normals[trial])
-    inside = (np.abs(height) < tolerance) & (np.abs(normals @ normals[trial].T) > 0.95)
-    best = inside[:, np.argmax(inside.sum(axis=0))]
-    for _ in range(3):
-        centre = points[best].mean(axis=0)
-        vectors = np.linalg.svd(points[best] - centre, full_matrices=False)[2]
-        height = (points - centre) @ vectors[2]
-        best = np.abs(height) < tolerance
-    if best.mean() < 0.15 or best.sum() < 50:
-        return None
-    side = np.sign(np.median(height[~best])) if (~best).any() else 1.0
-    below = float(np.mean(side * height < -tolerance))
-    if below > 0.03:
-        return None
-    try:
-        area = ConvexHull((points[best] - centre) @ vectors[:2].T).volume
-    except QhullError:
-        return None
-    if area < 1.2 * shadow:
-        return None
-    spread = robust_sigma(height[best])
-    normal = side * vectors[2]
-    return Plane(normal, float(normal @ centre), float(np.clip(6.0 * spread, 1e-3 * tolerance, tolerance)))
