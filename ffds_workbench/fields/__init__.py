@@ -10,5 +10,5 @@ from .field import VectorField
 from .morphing import Morphing, displacements
 from .operations import FieldMean, difference, limited, masked, mean, scaled, smoothed, total, transformed
 
-__all__ = ["VectorField", "FieldMean", "Morphing", "difference", "displacements", "limited", "masked", "mean", "read_field",
-           "scaled", "smoothed", "total", "transformed", "write_field"]
+__all__ = ["FieldMean", "Morphing", "VectorField", "difference", "displacements", "limited", "masked", "mean",
+           "read_field", "scaled", "smoothed", "total", "transformed", "write_field"]

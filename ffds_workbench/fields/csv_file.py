@@ -59,7 +59,8 @@ def read_field(path: str | Path) -> VectorField:
     columns = [table[:, names.index(name)] for name in COLUMNS]
     sigma = table[:, names.index(SIGMA)] if SIGMA in names else None
     known = np.array(faces, dtype=np.intp)
-    return VectorField(np.stack(columns[:3], axis=1), np.stack(columns[3:], axis=1), sigma, known if known.any() else None)
+    places, moves = (np.stack(three, axis=1) for three in (columns[:3], columns[3:]))
+    return VectorField(places, moves, sigma, known if known.any() else None)
 
 
 def read_table(path: Path, what: str, defaults: tuple[str, ...] = (*COLUMNS, SIGMA)
