@@ -36,6 +36,7 @@ _HOMES = {
     "..scan.poses": ("read_poses",),
     "..scan.preparation": ("PreparationSettings", "PreparedScan"),
     "..scan.sensor": ("SensorSettings", "View"),
+    "..series": ("Series", "SeriesLimits", "series"),
     "..seams.taught.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
     "..seams.plan": ("plan_seams",),

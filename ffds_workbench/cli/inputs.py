@@ -25,6 +25,11 @@ def add_inputs(command: argparse.ArgumentParser) -> None:
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
                          help=".ply .pcd .xyz .asc .txt .csv .pts .e57 .stl .las .laz or .obj; several of one part are "
                               "fused")
+    add_model_options(command)
+
+
+def add_model_options(command: argparse.ArgumentParser) -> None:
+    """What goes with a model and a scan wherever they are named."""
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--scan-unit", choices=list(MILLIMETRES), default="mm", help="unit of the scan (default: mm)")
 

@@ -17,10 +17,10 @@ from typing import NoReturn, TextIO
 from .. import RESOURCES, __version__
 from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
-from . import align, benchmark, prepare, seams, sensor, simulate, weld
+from . import align, benchmark, prepare, seams, sensor, series, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .morphing import field, morph
-from .terminal import ProgressLine, quiet_libraries
+from .terminal import Finished, ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
 DEBUG = "FFDS_DEBUG"
@@ -57,10 +57,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace, out: TextIO, err: TextIO, progress: ProgressLine) -> int:
     try:
-        text = options.run(options, progress)
+        found = options.run(options, progress)
+        done = found if isinstance(found, Finished) else Finished(found)
         progress.clear()
-        print(text, file=out)
-        return 0
+        print(done.text, file=out)
+        return done.exit
     except FfdsError as error:
         progress.clear()
         return _fail(err, error)
@@ -100,6 +101,7 @@ def command_line() -> argparse.ArgumentParser:
     morph.add(commands)
     seams.add(commands)
     weld.add(commands)
+    series.add(commands)
     _add_demo(commands)
     benchmark.add(commands)
     return parser

@@ -7,10 +7,19 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TextIO
 
 Progress = Callable[[str], None]
 """Called with what is being done now."""
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What a command has to print, and its exit code where that is not 0: something was written all the same."""
+
+    text: str
+    exit: int = 0
 
 
 class ProgressLine:

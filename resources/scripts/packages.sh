@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Sourced by setup.sh and test.sh: which Debian packages are needed, and how they are installed.
 
-run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d"
+run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed"
 test_packages="python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth python3-pyside2.qttest"
 
 # Install those of the named packages that are missing; nothing is touched if none is.
