@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
@@ -13,9 +14,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "ffds_workbench"
 RANK = {"__init__": 0, "errors": 0, "compat": 0, "find_freecad": 0, "output": 0, "registration": 1, "scan": 2,
-        "brep": 3,
-        "fields": 4, "seams": 4, "report": 4, "robot": 4.5, "api": 5, "series": 6, "benchmark": 6, "cli": 7, "objects": 7,
-        "gui": 8}
+        "brep": 3, "fields": 4, "seams": 4, "report": 4, "robot": 4.5, "api": 5, "series": 6, "benchmark": 6, "cli": 7,
+        "objects": 7, "gui": 8}
 GUI_ONLY = {"FreeCADGui", "PySide", "PySide2", "PySide6", "pivy"}
 NETWORK = {"socket", "ssl", "urllib", "http", "ftplib", "smtplib", "requests", "webbrowser"}
 FREECAD = {"FreeCAD", "Part", "Points", "Mesh", "Import"}
@@ -149,3 +149,57 @@ def test_constants_say_what_they_bound(path):
     found = {node.id for node in ast.walk(ast.parse(path.read_text("utf-8")))
              if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
     assert not found & bare, "name what the constant bounds: _LEAST_BAND_POINTS"
+
+
+TUNED = sorted(path for room in ("registration", "brep") for path in (PACKAGE / room).rglob("*.py"))
+ORIGIN = re.compile(r"(?:^|[(#*;.:] ?)\*?(theory|unit|units|calibrated)\*?(?=[):;,.*]|$)", re.IGNORECASE | re.MULTILINE)
+"""Where a number comes from, in one word: "(unit: time)", "*theory*:", "# calibrated: by hand"."""
+
+
+def _is_number(value: ast.expr | None) -> bool:
+    """Whether a value is a number, or is made of numbers; tables of whole numbers are none, nor are enumerations."""
+    if isinstance(value, ast.Constant):
+        return type(value.value) in (int, float)
+    if isinstance(value, ast.Tuple):
+        rows = [row.elts for row in value.elts if isinstance(row, ast.Tuple)]
+        if rows and all(isinstance(item, ast.Constant) and type(item.value) is int for row in rows for item in row):
+            return False
+        return any(map(_is_number, value.elts))
+    if isinstance(value, ast.Call):
+        named = isinstance(value.func, ast.Name) and value.func.id == "range"
+        return not named and any(map(_is_number, [*value.args, *(word.value for word in value.keywords)]))
+    if isinstance(value, ast.UnaryOp):
+        return _is_number(value.operand)
+    return isinstance(value, ast.BinOp) and (_is_number(value.left) or _is_number(value.right))
+
+
+def _is_constant(node: ast.stmt, in_class: bool) -> bool:
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+    names = [name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name)]
+    return bool(names) and (in_class or names[0].isupper()) and _is_number(node.value)
+
+
+def _said_of(lines: list[str], body: list[ast.stmt], number: int) -> str:
+    """The comments in and about a statement, and the docstring that follows it."""
+    node = body[number]
+    comments = [line.partition("#")[2] for line in lines[node.lineno - 1 : node.end_lineno]]
+    for about, step in ((node.lineno - 2, -1), (node.end_lineno, 1)):
+        while 0 <= about < len(lines) and lines[about].lstrip().startswith("#"):
+            comments.append(lines[about].lstrip("# "))
+            about += step
+    after = body[number + 1] if number + 1 < len(body) else None
+    if isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
+        comments.append(" ".join(str(after.value.value).split()))
+    return "\n".join(comment.strip() for comment in comments)
+
+
+@pytest.mark.parametrize("path", TUNED, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_numbers_say_where_they_come_from(path):
+    """Each module-level number of the registration and the B-rep, and each field of a class of settings."""
+    text = path.read_text("utf-8")
+    module = ast.parse(text)
+    rooms = [(module.body, False), *((node.body, True) for node in module.body
+                                     if isinstance(node, ast.ClassDef) and node.name.endswith("Settings"))]
+    silent = [text.splitlines()[node.lineno - 1] for body, in_class in rooms for number, node in enumerate(body)
+              if _is_constant(node, in_class) and not ORIGIN.search(_said_of(text.splitlines(), body, number))]
+    assert not silent, "say theory (and its source), unit (a physical assumption) or calibrated (by what, on what)"

@@ -18,9 +18,11 @@ from .pcurve_start import delay_pcurve_start
 from .workpiece import Workpiece
 
 _OCCT_PRECISION = 9e-8
-"""A gap below this (mm) is within OCCT's own precision."""
+"""A gap below this, in mm, is within Open CASCADE's own precision (theory: Open CASCADE's own precision, 1e-7, and a
+little less)."""
 _NO_DISPLACEMENT = 1e-5
-"""A displacement below this (mm) counts as none, where a moved face meets one that stays."""
+"""A displacement below this, in mm, counts as none, where a moved face meets one that stays (unit: far below any
+tolerance)."""
 
 
 class EdgeGeometry:

@@ -14,14 +14,19 @@ from .kinks import without_false_kinks
 from .occt_text import Curve, Line, Pcurve, Spline, crossings, fit_curve
 
 _GAP_SAMPLES = 257
+"""Places along an edge at which its gap is measured (unit: time), …"""
 _GAP_SAMPLES_PER_SPAN = 4
+"""… and more for each span of its curve (theory: a cubic has two extrema)."""
 _KINKED_SLOPE = 0.05
 """Relative change of the derivative at a knot from which on the curve counts as kinked; pcurves that intersection
-algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off."""
+algorithms leave behind have C0 knots with kinks of up to 0.03, which a few more knots round off (unit: 3°)."""
 _SAME_BREAK = 1e-6
+"""Difference of a parameter from a whole number of turns below which it is one (theory: far above rounding)."""
 _CONSTANT_PARAMETER = 1e-12
-"""A parameter that varies by less along a pcurve, relative to the other one, is constant."""
+"""A parameter that varies by less along a pcurve, relative to the other one, is constant (theory: rounding)."""
 _SEAM_TOLERANCE = 2e-8
+"""Tolerance in mm of a seam's curve, of which both sides have to be one (theory: a fifth of Open CASCADE's
+precision)."""
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,18 @@ from ..registration.splines import DEGREE
 from .surface_fit import ParameterBox
 
 _CURVE_SAMPLES = 65
+"""Places along an edge that bound its parameters (theory: an arc is covered to 3e-4 of its length, less than the
+widening)."""
 _QUARTER_TURN = 0.5 * np.pi
+"""Largest turn of a span that a cubic follows, in rad (theory)."""
 _WIDENING = 0.002
+"""Of a range of parameters, that is added on either side where edges are curved (theory: more than lies between two
+samples of them)."""
 _COINCIDENT = 1e-7
-"""Points of a surface this close (mm) are one: OCCT's own precision."""
+"""Points of a surface this close, in mm, are one (theory: Open CASCADE's own precision, 1e-7)."""
 _SEAM_SLOPE = 1e-5
-"""Largest relative change of slope across a seam that still counts as smooth."""
+"""Largest relative change of slope across a seam that still counts as smooth (theory: far above rounding, far below
+what light shows)."""
 
 
 def forward(face: Part.Face) -> Part.Face:

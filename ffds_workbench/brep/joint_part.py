@@ -11,6 +11,7 @@ from . import topology
 from .workpiece import Workpiece
 
 EDGE_SAMPLES = 33
+"""Samples of an edge (unit: more than any span of a lattice needs)."""
 
 
 def joint_part(workpiece: Workpiece, freeze: Iterable[str] = ()) -> JointPart:

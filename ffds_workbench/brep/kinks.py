@@ -10,8 +10,11 @@ from ..registration.arrays import Array
 from ..registration.splines import DEGREE
 
 _PROBE_STEP = 1e-5
+"""Of a curve's length, between the places whose differences tell its derivatives (theory: rounding and curvature then
+err alike)."""
 _SAME_KNOT = 1e-6
-"""Knots nearer to each other than this share of the range may be one and the same but for rounding."""
+"""Knots nearer to each other than this share of the range may be one and the same but for rounding (theory:
+rounding)."""
 
 
 def without_false_kinks(f: Callable[[Array], Array], breaks: Array, length: float, kink: float) -> Array:

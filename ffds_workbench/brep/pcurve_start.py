@@ -18,13 +18,16 @@ from .edges import PlacedCurve, Trace
 from .occt_text import fit_curve, print_curve
 
 _SAFETY, _LATEST_START = 1.3, 9.5e-5
-"""Safety factor on the gap, and the latest start in mm: an edge that gapes more than that does so in the nominal part
-already."""
+"""Safety factor on the gap (theory: more than it grows between two samples), and the latest start in mm: an edge that
+gapes more than that does so in the nominal part already (theory: below the tolerance of 1e-4 that readers mend)."""
 _LEAST_SPAN, _LONGEST_SPAN = 1e-3, 0.2
-"""Part of the edge along which the pcurve catches up; more where the edge is short, but no more than this."""
+"""Share of the edge along which the pcurve catches up; more where the edge is short, but no more than this (unit)."""
 _SPAN_PER_LATENESS = 6.0
+"""Of the way that it catches up along, over the way that it is late by (theory: its speed then changes by a sixth)."""
 _PROBE_STEP = 1e-4
+"""Of the edge, between two places that tell its speed (theory: far above rounding)."""
 _PCURVE_TOLERANCE = 1e-7
+"""Of the new pcurve in mm (theory: Open CASCADE's own precision, 1e-7)."""
 
 
 def delay_pcurve_start(trace: Trace, curve: PlacedCurve, gap: float, vertex: Array) -> Trace | None:

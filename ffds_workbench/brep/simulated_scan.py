@@ -16,8 +16,9 @@ from ..scan.sensor.truth import EDGE_SAMPLES
 from . import workpiece
 
 _SURFACE_SAMPLES = 20_000
+"""Points that are spread over a shape (theory: a share of them is known to 0.4 %)."""
 _SAG = 0.002
-"""Largest distance of the triangles from the shape, as a part of its size: far below what is taken to lie on it."""
+"""Largest distance of the triangles from the shape, over its size (unit: far below what is taken to lie on it)."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from ..registration.arrays import Array
 Incidence = tuple[tuple[int, ...], ...]
 
 _SAME_PARAMETERS = 1e-9
-"""Two pcurves of an edge are one below this difference: those of a seam are a period of the surface apart."""
+"""Two pcurves of an edge are one below this difference (theory: those of a seam are a period of the surface apart)."""
 
 
 class _Numbering:

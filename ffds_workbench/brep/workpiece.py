@@ -21,7 +21,8 @@ from .topology import Topology
 from .topology import read as read_topology
 
 SURFACE_TOLERANCE = 4e-6
-"""Largest distance in mm of a face's control lattice from the face's own surface."""
+"""Largest distance in mm of a face's control lattice from the face's own surface (unit: far below the noise of
+scanners)."""
 
 
 class WorkpieceFace:

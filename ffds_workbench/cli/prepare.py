@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import InputError
@@ -71,7 +72,7 @@ def _near(words: list[str] | None) -> tuple[float | None, Path | None]:
         raise InputError(f"--near takes a model and a distance in mm, not '{words[1]}'.") from error
 
 
-def _numbers(count: int):
+def _numbers(count: int) -> Callable[[str], tuple[float, ...]]:
     def read(text: str) -> tuple[float, ...]:
         try:
             values = tuple(map(float, text.split(",")))

@@ -20,14 +20,19 @@ Locator = Callable[[Array], tuple]
 """(3, n) points to the rows it kept (None for all), and what it `Located` for them."""
 
 _CHUNK = 16384
+"""Points that are located together (unit: memory of a processor's cache)."""
 _MOST_VOXELS = 262144
+"""Voxels around a face (unit: memory)."""
 _COLUMNS = ("index", "x", "y", "height")
 _LONGEST_STEP = 4.0
+"""Cells that a Newton step crosses at the most (theory: the cells' quadratic frames say nothing farther out)."""
 _LEAST_SPREAD = 0.2
-"""Foot points closer to the centre of curvature than this share of the radius are not unique enough to be used."""
-_UNKNOWN_VOXEL, _FAR_VOXEL, _NEAR_VOXEL = 0, 1, 2
+"""Foot points nearer to the centre of curvature than this share of the radius are not unique enough to be used (theory:
+there an error of the radius counts fivefold)."""
+_UNKNOWN_VOXEL, _FAR_VOXEL, _NEAR_VOXEL = range(3)
 _TRUSTED_CELLS = 1.5
-"""A foot point this many cells from the frame it was found in is not trusted."""
+"""A foot point this many cells from the frame it was found in is not trusted (theory: the error grows with the third
+power)."""
 
 
 @dataclass(frozen=True)

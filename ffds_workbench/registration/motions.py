@@ -8,7 +8,8 @@ from scipy.spatial.transform import Rotation
 from .arrays import Array
 
 _ALONG_AXIS_COSINE, _TURNED_ANGLE = 0.9998, 0.02
-"""Cosine above which a direction counts as along an axis, and angle in rad above which poses count as turned."""
+"""Cosine above which a direction counts as along an axis, and angle in rad above which poses count as turned (unit: one
+degree, which people call straight)."""
 
 
 def motion(rotation: Array, translation: Array) -> Array:

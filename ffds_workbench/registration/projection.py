@@ -15,9 +15,13 @@ from .splines import SplineSurface
 from .uv_raster import dot
 
 _CHUNK = 20000
+"""Points that are projected together (unit: memory)."""
 _SEED_POINTS = 96
+"""Places per direction that the steps start from (unit: time)."""
 _NEWTON_STEPS = 25
+"""Steps at the most (theory: Newton's double their digits; damped ones take a few more)."""
 _CONVERGED_STEP = 1e-9
+"""Movement in mm below which the steps end (theory: far below any tolerance, above rounding)."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ LEAST_CONTROL_POINTS = 4
 LEAST_SOURCE_POINTS = 16
 """On a face (theory: as many as the control points of the smallest lattice)."""
 STIFFEST = 1e4
-"""Stiffness may be up to this, or down to its inverse."""
+"""Stiffness may be up to this, or down to its inverse (unit: beyond it nothing changes)."""
 
 Lattice = tuple[int, int] | str
 

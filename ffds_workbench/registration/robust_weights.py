@@ -12,11 +12,11 @@ import numpy as np
 from .arrays import Array
 
 MAD_TO_SIGMA = 1.4826
-"""Standard deviation over the median absolute deviation, of normal noise."""
+"""Standard deviation over the median absolute deviation, of normal noise (theory)."""
 TUKEY_SIGMAS = 4.685
-"""Cut-off of Tukey's weights in standard deviations, for 95 % efficiency on normal noise."""
+"""Cut-off of Tukey's weights in standard deviations, for 95 % efficiency on normal noise (theory)."""
 NOISE_ENDS_SIGMAS = 4.0
-"""Standard deviations beyond which normal noise carries hardly any point: one in 16,000."""
+"""Standard deviations beyond which normal noise carries hardly any point: one in 16,000 (theory)."""
 
 
 def tukey(residual: Array, cutoff: float | Array) -> Array:

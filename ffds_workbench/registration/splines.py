@@ -17,8 +17,11 @@ from scipy.interpolate import BSpline
 from .arrays import Array
 
 DEGREE = 3
+"""Of all control lattices (theory: the paper's cubics)."""
 _DENSE_ENTRIES = 40000
+"""Entries from which a basis matrix is made by way of a sparse one (unit: time)."""
 _CHUNK = 4096
+"""Parameters that are evaluated together (unit: memory of a processor's cache)."""
 
 
 def clamped_knots(start: float, end: float, count: int, degree: int = DEGREE) -> Array:

@@ -11,6 +11,7 @@ from .arrays import Array
 from .face_geometry import FaceGeometry
 
 _ON_BOUNDARY = 1e-7
+"""Of the range, or in mm: what is nearer to a boundary lies on it (theory: far above rounding)."""
 
 
 def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:

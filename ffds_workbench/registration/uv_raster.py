@@ -20,11 +20,14 @@ from .trims import boundary_points, inside_trims
 Index = NDArray[np.intp]
 
 _LEAST_CELLS, _LARGEST_CELLS = 16, 256
+"""Cells per direction of a face, at least and at the most (unit: time)."""
 _LARGEST_TURN = 0.12
-"""Largest turn of the normal along a cell in rad: the surface is taken as quadratic within one."""
+"""Largest turn of the normal along a cell in rad (theory: the surface is then quadratic within one, to 4e-5 of its
+radius)."""
 _AFFINE_TOLERANCE = 1e-6
+"""In mm: a surface this near to an affine one is affine (theory: far below any tolerance, above rounding)."""
 DEEP = 3.0
-"""Distances from the trims are known up to this, in mm."""
+"""Distances from the trims are known up to this, in mm (theory: no margin is larger)."""
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
+import signal
 
 from ffds_workbench.benchmark import fuzz
-from ffds_workbench.benchmark.fuzz import kinds, seeds
+from ffds_workbench.benchmark.fuzz import commands, kinds, seeds, worker
 
 runner = importlib.import_module("ffds_workbench.benchmark.fuzz.run")
 
@@ -37,6 +39,21 @@ worker.main()
     found = rows(tmp_path, scans=5)["scan .xyz"]
     assert found["ended the process"] == 1 and sum(found.values()) == 5
     assert [path.name for path in (tmp_path / "failures").iterdir()] == ["scan-.xyz-2.xyz"]
+
+
+def test_a_command_that_ends_its_process_is_told_from_one_that_refuses(tmp_path, monkeypatch):
+    """The commands are run as ``./ffds`` runs them; of what they do to their process nothing reaches this one."""
+    arguments = ["deviation", str(tmp_path / "none.step"), str(tmp_path / "none.ply")]
+    refused = commands.run(arguments, tmp_path / "said", 30.0)
+    assert refused.code == 2 and refused.text.count("\n") == 1 and worker._of_command(refused) == "refused"
+    monkeypatch.setattr(commands, "main", lambda arguments: os.kill(os.getpid(), signal.SIGKILL))
+    ended = commands.run(arguments, tmp_path / "said", 30.0)
+    assert ended.code == -signal.SIGKILL and worker._of_command(ended) == "exit -9, no line"
+
+
+def test_a_command_without_an_end_is_ended(tmp_path, monkeypatch):
+    monkeypatch.setattr(commands, "main", lambda arguments: sum(iter(int, 1)))
+    assert commands.run([], tmp_path / "said", 0.0).code == -signal.SIGKILL
 
 
 def test_there_are_models_to_damage():

@@ -24,7 +24,7 @@ def in_process() -> list[str]:
 
 
 def by_command() -> list[str]:
-    """Kinds that are given to the command line."""
+    """Kinds that are given to the command line: models."""
     return [f"model {suffix}" for suffix in MODELS]
 
 
@@ -46,8 +46,14 @@ def damaged(kind: str, index: int, seed: int) -> bytes:
     """The ``index``-th damaged file of a kind, always the same."""
     random = np.random.default_rng([seed, zlib.crc32(kind.encode()), index])
     own = contents(kind)
-    others = own if kind.startswith("model") else [*own, *(item for group in seeds.scans().values() for item in group)]
-    return mutations.mutated(own[index % len(own)], others, random)
+    return mutations.mutated(own[index % len(own)], _others(kind), random)
+
+
+@cache
+def _others(kind: str) -> Sequence[bytes]:
+    """The files that pieces may come from."""
+    own = contents(kind)
+    return own if kind.startswith("model") else [*own, *(item for group in seeds.scans().values() for item in group)]
 
 
 def _models() -> Mapping[str, list[bytes]]:

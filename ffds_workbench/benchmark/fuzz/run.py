@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import resource
 import shutil
 import subprocess
 import sys
@@ -16,22 +15,20 @@ from pathlib import Path
 
 from ... import ROOT
 from ..pages import page
-from . import kinds, seeds
+from . import kinds, seeds, worker
 
 Progress = Callable[[str], None]
 
-LIMIT = 30.0
-"""Seconds of processor time that a file may take."""
-_BATCH = 2000
-_PATIENCE = 10.0
-"""Times its limit that a file is waited for, as other work may load the machine."""
+_BATCH = 20_000, 50
+"""Scans or paths, and models, between which the table is written."""
+_PATIENCE = 600.0
+"""Seconds that a step of one file is waited for, as other work may load the machine."""
 _WORKER = """
 from ffds_workbench import find_freecad
 find_freecad.activate()
 from ffds_workbench.benchmark.fuzz import worker
 worker.main()
 """
-_GOOD = ("taken", "refused")
 
 
 @dataclass
@@ -72,46 +69,39 @@ def run(folder: Path, progress: Progress, scans: int = 2000, models: int = 20, s
     """
     folder = folder.resolve()
     (folder / "failures").mkdir(exist_ok=True)
+    (folder / "scan.ply").write_bytes(seeds.ply(seeds.measured(), "binary_little_endian"))
+    counts = {kind: scans if kind.startswith("scan") else -(-scans // 100) for kind in kinds.in_process()}
     rows: list[FuzzRow] = []
-    for kind in kinds.in_process():
+    counts |= dict.fromkeys(kinds.by_command() if models else (), models)
+    for kind, count in counts.items():
         rows.append(FuzzRow(kind))
-        count = scans if kind.startswith("scan") else -(-scans // 100)
         while rows[-1].tried < count:
             progress(f"{kind}: {rows[-1].tried} of {count}")
-            _batch(folder, rows[-1], min(_BATCH, count - rows[-1].tried), seed)
+            _batch(folder, rows[-1], min(_BATCH[kind.startswith("model")], count - rows[-1].tried), seed)
             _write(folder, rows)
-    (folder / "scan.ply").write_bytes(seeds.ply(seeds.measured(), "binary_little_endian"))
-    for kind in kinds.by_command() if models else ():
-        rows.append(FuzzRow(kind))
-        for index in range(models):
-            progress(f"{kind}: {index} of {models}")
-            _command(folder, rows[-1], kinds.damaged(kind, index, seed))
-            _write(folder, rows)
-    for name in ("at", "scan.ply", "out.step", *(f"{stem}{suffix}" for stem in ("file", "new") for suffix in
+    for name in ("at", "said", "scan.ply", "out.step", *(f"{stem}{suffix}" for stem in ("file", "new") for suffix in
                  {kinds.suffix(row.kind) for row in rows})):
         (folder / name).unlink(missing_ok=True)
     return _write(folder, rows)
 
 
 def _batch(folder: Path, row: FuzzRow, count: int, seed: int) -> None:
-    """Have a worker read a batch; where a file takes it along or does not end, the batch ends there."""
+    """Have a process read a batch; where a file takes it along or does not end, the batch ends there."""
     first, at = row.tried, folder / "at"
     at.write_text(str(first))
     command = [sys.executable, "-P", "-c", _WORKER, str(folder), row.kind, *map(str, (first, count, seed))]
-    worker = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                               env={**os.environ, "PYTHONPATH": str(ROOT)})
-    what, last, since = "ended the process", "", time.monotonic()
-    while worker.poll() is None:
+    what = "ended the process"
+    while process.poll() is None:
         try:
-            worker.wait(1.0)
+            process.wait(1.0)
         except subprocess.TimeoutExpired:
-            if at.read_text() != last:
-                last, since = at.read_text(), time.monotonic()
-            elif time.monotonic() - since > _PATIENCE * LIMIT:
-                worker.kill()
+            if time.time() - at.stat().st_mtime > _PATIENCE:
+                process.kill()
                 what = "did not end"
-    output = worker.communicate()[0]
-    if worker.returncode == 0:
+    output = process.communicate()[0]
+    if process.returncode == 0:
         found = json.loads(output.splitlines()[-1])
         row.add(found["outcomes"], found["slowest"], found["memory"])
         return
@@ -121,42 +111,9 @@ def _batch(folder: Path, row: FuzzRow, count: int, seed: int) -> None:
     shutil.copy(folder / f"file{suffix}", folder / "failures" / f"{row.kind.replace(' ', '-')}-{index}{suffix}")
 
 
-def _command(folder: Path, row: FuzzRow, content: bytes) -> None:
-    """Give a model to the command line."""
-    path = folder / f"file{kinds.suffix(row.kind)}"
-    path.write_bytes(content)
-    steps = [["deviation", path, folder / "scan.ply"],
-             ["register", path, folder / "scan.ply", "--out", folder / "out.step"]]
-    outcome, slowest, memory = "taken", 0.0, 0.0
-    for step in steps:
-        command = [str(ROOT / "ffds"), *map(str, step)]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        begun = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        try:
-            _, text = begun.communicate(timeout=_PATIENCE * LIMIT)
-        except subprocess.TimeoutExpired:
-            begun.kill()
-            text = begun.communicate()[1]
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        slowest, memory = max(slowest, seconds), after.ru_maxrss / 1024
-        one_line = text.count("\n") == 1 and "Internal error" not in text
-        if begun.returncode in (2, 3) and one_line:
-            outcome = "refused"
-        elif begun.returncode != 0:
-            outcome = f"{step[0]}: exit {begun.returncode}, {text.strip()[:80] or 'no line'}"
-        if outcome == "taken" and seconds > LIMIT:
-            outcome = f"{step[0]}: more than {LIMIT:.0f} s"
-        if outcome != "taken":
-            break
-    if outcome not in _GOOD:
-        shutil.copy(path, folder / "failures" / f"{row.kind.replace(' ', '-')}-{row.tried}{path.suffix}")
-    row.add({outcome: 1}, slowest, memory)
-
-
 def _write(folder: Path, rows: list[FuzzRow]) -> str:
     cells = [(row.kind, str(row.tried), str(row.outcomes["taken"]), str(row.outcomes["refused"]),
-              "; ".join(f"{n} {what}" for what, n in row.outcomes.items() if n and what not in _GOOD) or "–",
+              "; ".join(f"{n} {what}" for what, n in row.outcomes.items() if n and what not in worker.GOOD) or "–",
               f"{row.slowest:.2f}", f"{row.memory:.0f}") for row in rows]
     table = page.Table("Damaged files", ("kind", "files", "taken", "refused", "failed", "slowest, s", "memory, MB"),
                        cells)

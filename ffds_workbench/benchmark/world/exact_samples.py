@@ -13,9 +13,10 @@ from scipy.spatial import cKDTree
 
 from ...registration.arrays import Array
 
-SAG = 2e-4
-"""Largest distance of the mesh from the faces, of the diagonal of the part's box. The mesh says where to draw points
-and what hides what, not where a point lies."""
+_SAG, _FINEST = 2e-4, 0.015
+"""Largest distance of the mesh from the faces, of the diagonal of the part's box, and the least in mm: below some
+0.01 mm OCCT's mesher makes hundreds of thousands of triangles of a small torus. The mesh says where to draw points and
+what hides what, not where a point lies."""
 _LONGEST = 1 / 120
 """Longest side of a triangle, of the same diagonal: what is flat may be bent afterwards."""
 
@@ -52,7 +53,7 @@ class ExactSamples:
 def triangulate(shape: Part.Shape) -> Triangles:
     """Mesh every face; one that OCCT cannot mesh has no triangles."""
     size = shape.BoundBox.DiagonalLength
-    meshes = [_divided(_mesh(face, SAG * size), _LONGEST * size) for face in shape.Faces]
+    meshes = [_divided(_mesh(face, _sag(size)), _LONGEST * size) for face in shape.Faces]
     return Triangles(np.concatenate(meshes), np.repeat(np.arange(len(meshes)), [len(mesh) for mesh in meshes]))
 
 
@@ -73,9 +74,14 @@ def draw(shape: Part.Shape, triangles: Triangles, counts: NDArray[np.intp], rng:
     for index in np.unique(face):
         own = np.flatnonzero(face == index)
         surface = shape.Faces[index].Surface
-        points[own], uv[own] = _on_surface(surface, uv[own], drawn[own, :3], 4 * SAG * size)
+        points[own], uv[own] = _on_surface(surface, uv[own], drawn[own, :3], 4 * _sag(size))
         normals[own] = _normals(surface, uv[own], outward[own])
     return ExactSamples(points, normals, face, uv)
+
+
+def _sag(size: float) -> float:
+    """Largest distance in mm of the mesh from the faces of a part of that size."""
+    return max(_SAG * size, _FINEST)
 
 
 def _mesh(face: Part.Face, sag: float) -> Array:

@@ -71,15 +71,18 @@ def distances(shape: Part.Shape, truth: WorldTruth) -> Array:
     return off
 
 
-def _from_face(face: Part.Face, points: Array, uv: Array) -> Array:
-    """Distances of points (n, 3) from a face's surface: Newton's steps from the nominal's (u, v) and from the nearest
-    of a grid, as files may turn a surface round; what is still far off, from the nearest point that OCCT finds."""
+def _from_face(face: Part.Face, points: Array, uv: Array | None = None) -> Array:
+    """Distances of points (n, 3) from a face's surface: Newton's steps from the nominal's (u, v), where it is known,
+    and from the nearest of a grid, as files may turn a surface round; what is still far off, from the nearest point
+    that OCCT finds."""
     surface = face.Surface
     u0, u1, v0, v1 = face.ParameterRange
     middles = (np.arange(_GRID) + 0.5) / _GRID  # never a pole, where all directions of u are one
     grid = np.stack(np.meshgrid(u0 + (u1 - u0) * middles, v0 + (v1 - v0) * middles), axis=-1).reshape(-1, 2)
     nearest = cKDTree([tuple(surface.value(u, v)) for u, v in grid.tolist()]).query(points)[1]
-    off = np.minimum(_newton(surface, points, grid[nearest]), _newton(surface, points, uv))
+    off = _newton(surface, points, grid[nearest])
+    if uv is not None:
+        off = np.minimum(off, _newton(surface, points, uv))
     for k in np.flatnonzero(off > _DOUBTFUL * np.median(off) + _CONVERGED):
         found = surface.value(*surface.parameter(Vector(*points[k])))
         off[k] = min(off[k], float(np.linalg.norm(np.array(tuple(found)) - points[k])))
@@ -111,15 +114,25 @@ def _newton(surface: Part.Surface, points: Array, uv: Array) -> Array:
 
 
 def _figures(shape: Part.Shape, truth: WorldTruth, off: Array) -> dict[str, Any]:
-    """Figures of the points, and of the edges that bound a face: the others are no part of a body."""
-    edges, bounds = [], {edge.hashCode() for face in shape.Faces for edge in face.Edges}
+    """Figures of the points, and of the edges that bound a face: the others are no part of a body.
+
+    A seam, where a face meets itself, is no line on the part: where it runs around a pipe is a choice of whoever drew
+    it, and no scan can show it. It is judged across the surface, by the distance of its true points from the face. How
+    far it is from its true line counts in ``edge_lines`` alone, which takes every edge for a line.
+    """
+    seams = {edge.hashCode(): face for face in shape.Faces for edge in face.Edges if edge.isSeam(face)}
+    bounds = {edge.hashCode() for face in shape.Faces for edge in face.Edges}
+    edges, lines = [], []
     for edge, before, true in zip(shape.Edges, truth.edges_nominal, truth.edges, strict=True):
         if not edge.Degenerated and np.ptp(before, axis=0).max() > 0 and edge.hashCode() in bounds:
             first, last = edge.ParameterRange
             line = np.array([tuple(edge.valueAt(t)) for t in np.linspace(first, last, _POLYLINE)])
-            edges.append(to_polyline(true, line))
+            lines.append(to_polyline(true, line))
+            face = seams.get(edge.hashCode())
+            edges.append(lines[-1] if face is None else _from_face(face, true))
     return {"visible": figures(off[truth.visible]), "hidden": figures(off[~truth.visible]),
-            "edges": figures(np.concatenate(edges)) if edges else None}
+            **{name: figures(np.concatenate(found)) if found else None
+               for name, found in (("edges", edges), ("edge_lines", lines))}}
 
 
 def figures(off: Array) -> dict[str, float] | None:

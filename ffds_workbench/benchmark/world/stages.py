@@ -52,19 +52,20 @@ def register(folder: Path) -> None:
     begin = time.perf_counter()
     model = api.read_model(_made(folder)["nominal_path"])
     result = api.register(model, api.read_scan(folder / "scan.ply"))
-    api.write(result, folder / (BUILT if api.step_keeps_numbers(model) else BUILT_EXACTLY))
+    built = BUILT if api.step_keeps_numbers(model) else BUILT_EXACTLY
+    api.write(result, folder / built)
     seconds, used = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_SELF)
     (folder / REGISTERED).write_text(json.dumps(
-        {"seconds": seconds, "processor": used.ru_utime + used.ru_stime, "megabytes": used.ru_maxrss / 1024}))
+        {"built": built, "seconds": seconds, "processor": used.ru_utime + used.ru_stime,
+         "megabytes": used.ru_maxrss / 1024}))
     np.savez_compressed(folder / "bands.npz", **_bands(result, _truth(folder)))
 
 
 def judge(folder: Path) -> None:
     """What the written file is worth, as it reads back."""
-    settings, made = _job(folder)[1], _made(folder)
+    settings, made, built = _job(folder)[1], _made(folder), json.loads((folder / REGISTERED).read_text())["built"]
     floor = _FLOOR_SIGMAS * settings.sigma * settings.scale + _FLOOR_SIZE * made["size"]
-    built = folder / (BUILT if (folder / BUILT).exists() else BUILT_EXACTLY)
-    row = judging.judge(Part.read(made["nominal_path"]), built, _truth(folder),
+    row = judging.judge(Part.read(made["nominal_path"]), folder / built, _truth(folder),
                         dict(np.load(folder / "bands.npz")), floor)
     (folder / JUDGED).write_text(json.dumps(row))
 

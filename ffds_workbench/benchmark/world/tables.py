@@ -9,6 +9,7 @@ from typing import Any
 from ..accuracy_study.accuracy_lines import AccuracyLine
 from ..pages.page import Section, Table
 from .judge import FLAGS
+from .stages import BUILT
 
 Row = Mapping[str, Any]
 
@@ -74,14 +75,20 @@ def sections(rows: Sequence[Row]) -> list[Section]:
     verdict = Table("Lines", ["", "found", "asked", ""], [
         [line.what, f"{line.found:.4g}", line.asked, "met" if line.met else "NOT MET"] for line in asked])
     head = ["file", "deformation", "faces", "outcome", "s", "MB", "visible mean", "p95", "max", "nominal's", "hidden",
-            "nominal's", "edges mean", "p95", "max", "nominal's", "gap", "tolerance", "read back"]
+            "nominal's", "edges mean", "p95", "max", "nominal's", "as lines", "gap", "tolerance", "read back"]
     cases = Table("Cases, mm", head, [_cells(row) for row in rows])
     others = [[row["file"], row["deformation"], row["step"], str(row["exit"]), row["sentence"]] for row in rows
               if row["outcome"] != "written"]
     text = ["Each file as it is and deformed, with a scan of six views and σ = 0.08 mm unless told otherwise; seconds "
             "of reading, registering and writing by one thread, with the machine as busy as it was. Distances are "
-            "those of true points from the faces of the STEP file as it reads back, evaluated by OCCT; nominal's: of "
-            "the same points from the nominal model."]
+            "those of true points from the faces of the file as it reads back, evaluated by OCCT; nominal's: of the "
+            "same points from the nominal model. A seam, where a face meets itself, is no line on the part: it is "
+            "judged across the surface; as lines: with seams as lines, too."]
+    exactly = sorted({row["file"] for row in rows if row["outcome"] == "written" and row["built"] != BUILT})
+    if exactly:
+        count = sum(row["outcome"] == "written" and row["built"] == BUILT for row in rows)
+        text.append(f"{count} of {len(rows)} cases are written as STEP. No STEP file can number the edges of these as "
+                    f"the nominal model does, and they are written as BREP: {', '.join(exactly)}.")
     tables = [verdict, cases] + ([Table("Not written", ["file", "deformation", "step", "exit", "what it said"], others)]
                                  if others else [])
     return [Section("Results", text, tables=tables)]
@@ -91,11 +98,12 @@ def _cells(row: Row) -> list[str]:
     head = [row["file"], row["deformation"], str(row.get("faces_count", "–")), row["outcome"],
             *(f"{row[key]:.0f}" if key in row else "–" for key in ("seconds", "megabytes"))]
     if row["outcome"] != "written":
-        return [*head, *["–"] * 13]
+        return [*head, *["–"] * 14]
     before = row["nominal"]
     blocks = [_block(row.get(what), keys) + _block(before[what], ("mean",)) for what, keys in
               (("visible", ("mean", "p95", "max")), ("hidden", ("mean",)), ("edges", ("mean", "p95", "max")))]
-    return [*head, *(cell for block in blocks for cell in block), f"{max(0.0, row['gap'][1] - row['gap'][0]):.1e}",
+    return [*head, *(cell for block in blocks for cell in block), *_block(row.get("edge_lines"), ("mean",)),
+            f"{max(0.0, row['gap'][1] - row['gap'][0]):.1e}",
             f"{row['tolerance'][1]:.1e}", "; ".join([*row["lost"], *_unsound(row), *_unmeshed(row)]) or "kept"]
 
 

@@ -25,17 +25,20 @@ from .edge_samples import EdgeSamples, along_edge, join_samples, side_lengths
 from .radial_basis import RadialField, interpolate
 
 _FADE_FACTOR = 10.0
-"""A correction fades over at least this multiple of itself …"""
+"""A correction fades over at least this multiple of itself (theory: the slope that it adds is then below a fifth), …"""
 _FADE_SHARE = 0.25
-"""… and over this part of the face's size."""
+"""… and over this share of the face's size (unit)."""
 _LARGEST_CENTRES = 500
+"""Centres of the radial functions of a face's correction (unit: time)."""
 _SLIDING = 0.03
 """Weight of a face's displacement within itself relative to that along its normal: it decides where the normals are
-nearly parallel."""
+nearly parallel (unit: along its normal a face is known far better)."""
 AT_VERTICES = 1e-7
-"""In the vertices faces meet to OCCT's own precision (mm): readers of STEP mend what is farther apart."""
+"""In the vertices faces meet within this, in mm (theory: Open CASCADE's own precision, 1e-7: readers of STEP mend what
+is farther apart)."""
 _TEARING_GAP = 1e-8
-"""Sides of a seam, or directions at a pole, that differ by more than this (mm) tear the face."""
+"""Sides of a seam, or directions at a pole, that differ by more than this, in mm, tear the face (theory: a tenth of
+Open CASCADE's precision)."""
 
 
 @dataclass(frozen=True)

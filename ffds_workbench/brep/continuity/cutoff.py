@@ -15,19 +15,24 @@ from scipy.spatial.distance import cdist
 from ...registration.arrays import Array
 
 SPACING = 0.1
-"""Largest distance of the samples along an edge, as a fraction of their reach."""
+"""Largest distance of the samples along an edge, as a fraction of their reach (theory: see `_ZERO_BELOW`)."""
 _SHARE_POWER = 8
+"""Power of the distances in the smooth distance: the larger, the nearer to the least one (theory: see
+`_ZERO_BELOW`)."""
 _ZERO_BELOW, _ONE_ABOVE = 0.14, 1.05
 """The factor is exactly 0 below, exactly 1 above these smooth distances. Between two samples at ``SPACING`` it is 0.06
-at most, without a ripple that counts from 0.14 on; at the reach from two straight edges it is 1.1, from six 0.96."""
+at most, without a ripple that counts from 0.14 on; at the reach from two straight edges it is 1.1, from six 0.96
+(theory)."""
 _HORIZON = 1.6
-"""A sample's share fades to nothing at this multiple of its reach."""
+"""A sample's share fades to nothing at this multiple of its reach (theory: beyond where the factor is 1)."""
 _BLOCK_VALUES = 60_000
+"""Distances that are computed together (unit: memory of a processor's cache)."""
 _DENSE_SAMPLES = 400
-"""With at most this many samples, computing all distances is faster than searching for the near ones."""
+"""With at most this many samples, computing all distances is faster than searching for the near ones (unit: time)."""
 
 
 _STEP_KNOT = 0.5 - np.sqrt(0.125)
+"""Inner Chebyshev knot of the perfect spline of degree 4 on [0, 1] (theory)."""
 
 
 def smooth_step(t: Array) -> Array:

@@ -21,10 +21,12 @@ from .edge_samples import side_lengths
 from .radial_basis import RadialField
 
 FIDELITY = 1e-5
-"""Largest distance in mm of a corrected field from the agreed displacement at the samples of the edges."""
+"""Largest distance in mm of a corrected field from the agreed displacement at the samples of the edges (unit: far below
+any tolerance, above what a fit leaves)."""
 _SAMPLE_SPACING = 0.01
+"""Distance of samples on an edge, over the size of the faces (unit: no displacement changes over less), …"""
 _LEAST_SPACING = 0.25
-"""Samples on an edge lie no farther apart than this share of the faces' size, nor closer than this in mm."""
+"""… and in mm at least (unit: time)."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,9 @@ from ..topology import points_on_edge
 from ..workpiece import Workpiece, WorkpieceFace
 
 _LEAST_SAMPLES, _LARGEST_SAMPLES = 5, 400
+"""Samples of an edge, at least and at the most (unit: time)."""
 _SAMPLES_PER_SIDE = 48
+"""Samples along the longer side of a face (unit: time)."""
 
 
 @dataclass(frozen=True)

@@ -15,15 +15,17 @@ from .edge_samples import EdgeSamples, along_edge, join_samples
 from .radial_basis import RadialField
 
 _ROOM_FACTOR = 5.0
-"""An edge may stay if it is farther from the edited faces than this many times the displacement there, …"""
+"""An edge may stay if it is farther from the edited faces than this many times the displacement there (theory: the
+slope of what fades is then below a half), …"""
 _SPARE_REACH = 1.1
 """… and if it needs no more than this many times that distance to hold, or the edited faces would be held as well
 (theory: at its reach a straight edge is 1.2 away, and the factor has become 1 from 1.05 on)."""
 _TAPER_SHARES = 0.05, 0.5
-"""Where a frozen face touches an edited one, the displacement fades over five times itself, but between these parts of
-the edited face's size."""
+"""Where a frozen face touches an edited one, the displacement fades over five times itself, but between these shares of
+the edited face's size (unit)."""
 _TOLERANCE_ROOM = 30.0
-"""Least reach of a held edge over its tolerance: its faces' own traces of it must lie where the factor is exactly 0."""
+"""Least reach of a held edge over its tolerance (theory: its faces' own traces of it then lie where the factor is
+exactly 0)."""
 
 
 @dataclass(frozen=True)

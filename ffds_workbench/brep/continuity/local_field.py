@@ -31,24 +31,31 @@ from .held_edges import held_edges
 from .radial_basis import RadialField, interpolate
 
 _SAMPLE_SPACING = 0.004
-"""Distance of samples on the edges of an edited face over the face's size."""
+"""Distance of samples on the edges of an edited face, over the face's size (unit: no displacement changes over
+less)."""
 _FIDELITY = 1e-5
-"""Largest distance in mm of the field from the registered displacement along the edges …"""
+"""Largest distance in mm of the field from the registered displacement along the edges (unit: far below any tolerance,
+above what a fit leaves), …"""
 _DISPUTED_SHARE = 0.3
-"""… or this part of what edited faces differ by there, so that the field runs smoothly through what they dispute."""
+"""… or this share of what edited faces differ by there, so that the field runs smoothly through what they dispute
+(unit)."""
 _FIDELITY_INSIDE = 0.02
-"""The same inside an edited face, over the largest displacement: there it only serves what lies behind the face."""
+"""The same inside an edited face, over the largest displacement: there it only serves what lies behind the face
+(unit)."""
 _INSIDE_CORRECTION_SHARE = 0.2
-"""Inside, corrections need only be met to within this share of the largest one."""
+"""Inside, corrections need only be met to within this share of the largest one (unit)."""
 _SAME_AS_FIELD = 2e-5
-"""What counts as equal to the field, in mm. An edited face gets a correction where it is not, …"""
+"""What counts as equal to the field, in mm (theory: twice the fidelity along edges). An edited face gets a correction
+where it is not, …"""
 _RIM_WIDTHS = 0.08, 5.0
 """… and where that fails, it passes into the field within a rim. The rim is as wide as the first number times the
-face's size, and at least the second number times the distance."""
+face's size (unit), and at least the second number times the distance (theory: the slope of what fades is then below a
+half)."""
 _SUPPORT_SIZES = 0.6, 5.0
-"""Support of the radial functions: the first number times the size of the largest edited face, plus the second number
-times the largest displacement."""
+"""Support of the radial functions: the first number times the size of the largest edited face (unit), plus the second
+number times the largest displacement (theory: as above)."""
 _LINES_PER_SUPPORT = 4.0
+"""Lines of the lattice that follows the field, over its support (unit: time)."""
 
 
 @dataclass(frozen=True)

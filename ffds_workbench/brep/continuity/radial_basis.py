@@ -16,12 +16,18 @@ from scipy.spatial.distance import cdist
 from ...registration.arrays import Array
 
 _FIRST_CENTRES = 40
+"""Centres that are chosen at first (unit: time)."""
 _RIDGE = 1e-13
+"""Added to the kernel's diagonal, which is 1 (theory: far above rounding, far below what shows)."""
 _TARGET_MISFIT = 0.5
+"""Root mean square of the misfit that is looked for, over the tolerances (theory: hardly any then exceeds its own)."""
 _LOG_RIDGES = -6.0, 6.0
+"""Decimal logarithms between which a smoothing weight is looked for, over the square of the tolerances (theory: from
+interpolation to a mean)."""
 _BISECTIONS = 6
+"""Bisections between them (theory: to a fifth of a decade)."""
 _BLOCK_VALUES = 60_000
-"""Kernel values at a time: small enough to stay in the processor's cache."""
+"""Kernel values that are computed together (unit: memory of a processor's cache)."""
 
 
 def wendland(r: Array) -> Array:

@@ -13,6 +13,7 @@ from ..topology import Topology
 from ..validity import listed
 
 _QUARTERS = np.array([0.25, 0.5, 0.75])
+"""Where on an edge it is compared (theory: three places tell curves apart that have the same ends)."""
 _SHIFT = 0.01
 """Unit: a reader may begin and end an edge elsewhere on its curve, which moves its middle by less than this share of
 its length; another edge's middle lies farther off."""

@@ -34,16 +34,19 @@ from ffds_workbench.brep.model_files import reading
 reading.run(*sys.argv[2:])
 """
 _SECONDS, _SECONDS_PER_MB = 5.0, 20.0
-"""Processor time that reading may take. Physical: a slow machine takes 1 s to load FreeCAD and 5 s for a MB of STEP."""
+"""Processor time that reading may take, and more for each MB (unit: a slow machine takes 1 s to load FreeCAD and 5 s
+for a MB of STEP)."""
 _BYTES, _BYTES_PER_BYTE = 1 << 30, 200
-"""Memory that reading may take beyond what an idle process has. Physical: OCCT takes some 50 bytes for each of STEP."""
+"""Memory that reading may take beyond what an idle process has, and more for each byte of the file (unit: Open CASCADE
+takes some 50 bytes for each of STEP)."""
 _DOCUMENT_GAIN = 20
-"""Bytes of a FreeCAD document's text for each of its compressed file that limits allow for. Physical: BREP has 5."""
+"""Bytes of a FreeCAD document's text for each byte of its compressed file that limits allow for (unit: BREP has 5)."""
 _PATIENCE = 3.0
-"""Times its processor time that reading is waited for where the system does not tell how much of it is used."""
+"""Times its processor time that reading is waited for where the system does not tell how much of it is used (unit)."""
 _STILL = 10.0
-"""Seconds for which reading may get no processor time, as on a slow disk, before it counts as stuck."""
+"""Seconds for which reading may get no processor time, as on a slow disk, before it counts as stuck (unit)."""
 _LOOK = 0.5
+"""Seconds between two looks at the process (unit)."""
 
 _OUT_OF_TIME = -getattr(signal, "SIGXCPU", 0) or None
 """What a process that has used its processor time returns."""

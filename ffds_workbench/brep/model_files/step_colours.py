@@ -30,12 +30,14 @@ _KINDS = {"PLANE": "Plane", "CYLINDRICAL_SURFACE": "Cylinder", "CONICAL_SURFACE"
           "SPHERICAL_SURFACE": "Sphere", "TOROIDAL_SURFACE": "Toroid"}
 _NAMED_COLOURS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "magenta": (1, 0, 1),
                   "cyan": (0, 1, 1), "black": (0, 0, 0), "white": (1, 1, 1)}
+"""Red, green and blue of ISO 10303-46's named colours (theory)."""
 _THROUGH_STYLE = ("PRESENTATION_STYLE_ASSIGNMENT", "PRESENTATION_STYLE_BY_CONTEXT", "SURFACE_STYLE_USAGE",
                   "SURFACE_SIDE_STYLE", "SURFACE_STYLE_FILL_AREA", "SURFACE_STYLE_RENDERING",
                   "SURFACE_STYLE_RENDERING_WITH_PROPERTIES", "FILL_AREA_STYLE", "FILL_AREA_STYLE_COLOUR")
 _BODIES = (*_SOLIDS, "SHELL_BASED_SURFACE_MODEL", "CLOSED_SHELL", "OPEN_SHELL", "ORIENTED_CLOSED_SHELL")
 _DEEPEST = 3
-"""A face has a shell, that an oriented one around it, and that a solid or a model of surfaces (ISO 10303-42)."""
+"""A face has a shell, that an oriented one around it, and that a solid or a model of surfaces (ISO 10303-42)
+(theory)."""
 _END = b"END-ISO-10303-21;"
 
 

@@ -17,7 +17,8 @@ from .step_free_shapes import with_free_shapes
 from .step_order import ordered
 
 _MOST_UNCERTAIN = 0.001
-"""Of a larger tolerance (mm) the uncertainty in a STEP file says no more than this: readers drop what is shorter."""
+"""Largest uncertainty that a STEP file states, in mm, where tolerances are larger: readers drop what is shorter
+(unit)."""
 
 
 def write(shape: Part.Shape, decoration: Decoration, path: Path) -> ReadBack:

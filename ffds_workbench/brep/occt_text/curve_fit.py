@@ -12,7 +12,9 @@ from ..surface_fit import direction
 from .curves import Spline
 
 _LARGEST_KNOT_COUNT = 3000
+"""Knots of a curve at the most (unit: time), …"""
 _REFINEMENT_ROUNDS = 10
+"""… and rounds in which spans are halved (theory: a thousandth of a span is left)."""
 
 
 def fit_curve(f: Callable[[Array], Array], first: float, last: float, breaks: Array, tolerance: float) -> Spline:

@@ -19,6 +19,7 @@ Chain = tuple[tuple[int, int], ...]
 """A location as OCCT compares it: elementary locations (index from 1) and their powers, outermost first."""
 
 _ROUNDING = 1e-9
+"""Largest difference of a determinant from ±1 of a placement that does not scale (theory: far above rounding)."""
 
 
 class Locations:

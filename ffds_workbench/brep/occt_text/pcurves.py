@@ -19,7 +19,8 @@ from .instances import Chain, EdgeUse, Instances, Locations, inverse, product
 from .records import BrepText, Curve3d, CurveOnSurface, EdgeCurves, FaceSurface
 
 _PLANE_TOLERANCE = 5e-7
-"""Largest change (mm in a plane) of a pcurve that has to become a cubic."""
+"""Largest change, in mm in a plane, of a pcurve that has to become a cubic (theory: a few times Open CASCADE's
+precision)."""
 _CIRCLE = "2"
 
 

@@ -17,7 +17,8 @@ from ..splines import DEGREE, SplineSurface, basis_matrix, clamped_knots
 Index = NDArray[np.intp]
 
 _COINCIDENT = 1e-6
-"""Control points of a nominal surface nearer than this (mm) are one point."""
+"""Control points of a nominal surface nearer to each other than this, in mm, are one point (unit: ten times the
+precision of Open CASCADE)."""
 
 
 @dataclass(frozen=True)

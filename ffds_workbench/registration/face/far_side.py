@@ -13,12 +13,14 @@ from ..uv_raster import dot, make_raster
 from .face_result import FaceRegistration
 
 _RASTER_CELLS = 256
+"""Cells of a face (unit: time)."""
 _OPPOSITE_COSINE = -0.7
-"""Cosine of the outward normals from which two faces are the sides of one sheet, or of one slot."""
+"""Cosine of the outward normals from which two faces are the sides of one sheet, or of one slot (unit: 45°)."""
 _COVERED_SHARE = 0.5
-"""Share of the observed part of the face that has to lie on the other one."""
+"""Share of the observed part of the face that has to lie on the other one (unit: most of it)."""
 _LEAST_MOVEMENT_IN_NOISE = 3.0
-"""Nothing is suspected where the face moved by less than this multiple of the noise."""
+"""Standard deviations of the noise that a face has to have moved by to be suspected (theory: normal noise seldom
+reaches farther)."""
 
 
 def far_side(face: FaceGeometry, registration: FaceRegistration, others: Iterable[FaceGeometry]) -> tuple[str, float]:

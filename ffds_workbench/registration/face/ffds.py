@@ -20,14 +20,19 @@ from .face_result import FaceRegistration
 from .neighbours import nearest_neighbours
 
 REACH = 10.0
-"""Farther from the nominal than this (mm), a scan point is not taken for the face's own."""
+"""Points of the scan farther from the nominal face than this, in mm, are not the face's own (unit: parts of some
+decimetres warp by less)."""
 
 SMALLEST_SINGULAR_VALUE = 1e-6
+"""Of the pseudo-inverses, over the largest one (theory: what is smaller multiplies the noise by a million)."""
 _LEAST_COVERAGE = 0.1
+"""Share of the source points that need a neighbour within reach (unit: with fewer the scan shows something else)."""
 _FINEST_LATTICE = 10
+"""Control points per direction with which the automatic choice begins (theory: the paper's lattice)."""
 _LARGEST_OVERSHOOT, _FIRM_OVERSHOOT = 4.0, 2.5
-"""Ratio of control point to source point displacement above which a lattice counts as undetermined, and up to which the
-automatic choice takes it. A cubic through a full grid stays below 2, or a little above where most of it is noise."""
+"""Displacement of control points over that of source points, above which a lattice counts as undetermined, and up to
+which the automatic choice takes one. Without holes it stays below 2 for a cubic, or a little above where most of it is
+noise (calibrated: by hand, on faces with holes of the families of ``./ffds benchmark accuracy``)."""
 
 
 class UndeterminedError(RefusedError):

@@ -20,14 +20,23 @@ from ..arrays import Array
 Index = NDArray[np.intp]
 
 _BLOCK_POINTS = 1 << 17
+"""Scan points that are binned together (unit: memory of a processor's cache)."""
 _CELLS_PER_ROOT = 8.0
+"""Occupied cells over the square root of the number of points: as many cells as points in a cell, but for a factor
+(unit: time)."""
 _MOST_CELLS = 65535
+"""Cells of a block (theory: 16-bit keys are sorted in linear time)."""
 _FIRST_LOOK = 12
+"""Cells that are looked up for each query at first (unit: time)."""
 _MOST_PAIRS = 130_000
+"""Pairs of a query and a point that are compared together (unit: memory of a processor's cache)."""
 _SAMPLE_SIZE = 128
+"""Scan points that give the first upper bounds (unit: time)."""
 _CHUNK = 32768
+"""Points whose keys are computed together (unit: memory of a processor's cache)."""
 _SLACK = 1e-9
-"""Relative slack of distance bounds, far above rounding: a cell kept in vain costs time, one dropped costs truth."""
+"""Relative slack of distance bounds: a cell kept in vain costs time, one dropped costs truth (theory: far above
+rounding)."""
 
 
 @dataclass(frozen=True)

@@ -18,10 +18,15 @@ from .robust_fit import dense_layers
 Index = NDArray[np.intp]
 
 REACH = 10.0
+"""Largest distance in mm of a point from its face (unit: parts of some decimetres warp by less)."""
 LEAST_COVERAGE = 0.5
+"""Share of a face that has to be covered for it to count as observed (unit: most of it)."""
 _LEAST_POINTS = 30
+"""Points of a face that is observed (theory: twice the control points of the smallest lattice, nearly)."""
 _SAMPLE_SIZE = 40000
+"""Scan points that are looked at (unit: time)."""
 _RASTER_CELLS = 1024
+"""Cells of a face (unit: time)."""
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,14 @@ from .robust_fit import (MAIN_PATCHES, PROVEN, FacePoints, Layers, RasterFit, Ro
 from .scan_coverage import covered_share
 
 _LEAST_POINTS, _LEAST_FITTED = 30, 20
+"""Points near the face without which nothing is fitted, and points that have to agree on one surface (theory: twice,
+and just above, the control points of the smallest lattice)."""
 _RASTER_CELLS, _CELLS_PER_CONTROL_POINT = 4096, 4
+"""Cells of a face, and cells for each control point of a fine lattice (unit: time; theory: four cells determine a
+bicubic span's own control point)."""
 _MANY_WALLS, _MOST_NORMALS = 0.1, 50_000
-"""Where more than the first share of the layers are walls, normals are computed for at most this many points."""
+"""Where walls make up more than the first share of the layers, normals are computed to tell them apart, of at most the
+second number of points (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark accuracy``; unit: time)."""
 
 
 def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | None = None,

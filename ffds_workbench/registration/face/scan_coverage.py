@@ -11,9 +11,11 @@ from ..arrays import Array
 from ..uv_raster import Raster
 
 _DENSE_POINTS = 2.0
+"""Mean points of an occupied cell from which cells are judged by themselves (theory: fewer leave a seventh of the cells
+empty by chance)."""
 _COVERED_SPACING = 1.2 * 2.13
-"""Points at random, √(π / ln 2) = 2.13 median neighbour distances apart on average: 99 % of a covered area lie within
-1.2 spacings of one."""
+"""Cells within this many median neighbour distances of a point are covered. Points at random are √(π / ln 2) = 2.13
+median neighbour distances apart on average, and 99 % of a covered area lie within 1.2 spacings of one (theory)."""
 
 
 def covered_share(raster: Raster, points: Array) -> float:

@@ -16,8 +16,9 @@ from .skins import candidate_outward_normals
 from .surfaces import JointPart
 
 _COARSER = 0.4
-"""Spans of a preview beside those of the result."""
+"""Spans of a preview over those of the result (unit: time)."""
 _SAMPLE_SIZE = 6000
+"""Scan points of a preview (unit: time)."""
 
 
 class LiveJoint:

@@ -22,15 +22,17 @@ _TORN_STEP, _TORN_AREA = 0.5, 0.05
 """Faces that move by this share of the largest step wander; of the part's area they may be this share, so that the
 others hold them (units)."""
 _LEAST_USED_POINTS = 50
+"""Points near the part that hold it, and points near its free faces (unit)."""
 _LEAST_USED_SHARE = 0.02
-"""Points near the part, and near its free faces, and their share of the scan, that hold it (unit)."""
+"""Of the scan, that has to lie near the part (unit)."""
 _COLLAPSED_AREA = 0.1
 """Share of its nominal area below which a cell has collapsed (unit)."""
 _OFF_IN_NOISES, _OFF_SHARE, _NEGLIGIBLE = 10.0, 0.2, 1e-5
-"""A face does not follow the scan that lies this many times the noise off its points, this share of what the nominal
-part did, and farther than as many times this share of the part's size, which is less than anybody can see."""
+"""A face does not follow the scan if it lies off its points by more than ten times the noise, a fifth of what the
+nominal part does, and 1e-4 of the part's size (calibrated: by hand, on the families of ``./ffds benchmark accuracy``;
+unit: less than that nobody sees)."""
 _LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
-"""Points and cover of a face that is judged: what else lies near it does not cover it."""
+"""Points and coverage that a face has to have to be judged: what lies near it by chance does not cover it (unit)."""
 
 
 def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:

@@ -21,17 +21,23 @@ from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, cell_sides
                        normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
+"""Scan points of the early stages (unit: time)."""
 _POINTS_PER_CELL = 8.0
+"""Points of a cell where the scan is dense (theory: a median of eight is known to 0.44 of the noise)."""
 _POINTS_PER_SPAN = 20.0
+"""Points of a span at least (theory: sixteen control points act on one)."""
 _FEWEST_POINTS = 50
+"""Points of a scan at least (unit)."""
 _TRIM_MARGIN = 0.62
 """Over the side of a cell: nearer to the border of a face, a cell would hold points of its neighbour (theory: half of
 it, and a little for what a shape is off)."""
 _FARTHEST_IN_MARGINS = 4.0
 """Distances from the border are known up to this (theory: nothing asks for more)."""
 _CELLS_PER_SPAN = (3, 10)
+"""Cells along a span, at least and at the most (theory: three see what a cubic can follow; unit: memory)."""
 _WALL_ISOMETRY = 0.1
-"""Isometry of faces that are no skin of a sheet, relative to the skins'."""
+"""Isometry of faces that are no skin of a sheet, over the skins' (calibrated: by hand, on the families of ``./ffds
+benchmark accuracy``)."""
 
 
 @dataclass(frozen=True)

@@ -28,13 +28,14 @@ from .surfaces import JointPart, close_seams
 Progress = Callable[[str, float], None]
 _TRUST_SETTLES = 0.9
 """While the shape misses the scan, a stage goes on as long as a step lowers the trust in isometry below this factor
-times the last one: shapes follow it slowly."""
+times the last one: shapes follow it slowly (calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 _SHRINKS = 0.9
 """The first soft stage, which finds how far priors are trusted, ends when that has settled and a step is larger than
-this times the last one: what goes on moving is held by priors alone, and those are trusted more again in the next."""
+this times the last one: what still moves is held by priors alone, and those gain trust again in the next stage
+(calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 _NO_MORE_STIFF_STAGES = 0.5
 """If a stiff stage ends with a step smaller than this many times the scatter of the points about a stiff shape, the
-remaining ones are skipped."""
+remaining ones are skipped (unit: time)."""
 
 
 def register_joint(part: JointPart, scan: Array, settings: JointSettings | None = None,

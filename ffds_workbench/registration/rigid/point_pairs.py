@@ -9,9 +9,10 @@ from ..arrays import Array
 from ..motions import best_fit
 
 _COLLINEAR = 0.05
-"""Points this near to a line, as a share of their spread along it, leave the turn about it open."""
+"""Points this near to a line, as a share of their spread along it, leave the turn about it open (unit)."""
 _SIDE_TOLERANCE = 0.25
-"""Sides of the two triangles may differ by this share of the longest: scans are deformed, and picks are by hand."""
+"""Sides of the two triangles may differ by this share of the longest (unit: scans are deformed, and picks are by
+hand)."""
 
 
 def pose_of_pairs(on_scan: Array, on_model: Array) -> Array:

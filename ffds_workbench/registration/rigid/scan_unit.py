@@ -19,7 +19,8 @@ from ..arrays import Array
 from .settings import UnitSettings
 
 SCALES = {"m": 1000.0, "dm": 100.0, "cm": 10.0, "in": 25.4}
-"""Factors to mm that scans come in beside 1; each may also be off the other way round."""
+"""Factors to mm that scans come in beside 1 (theory: definitions of the units); each may also be off the other way
+round."""
 FACTORS = (*SCALES.values(), *(1.0 / factor for factor in SCALES.values()))
 """What a scan may have to be multiplied by."""
 Surface = Callable[[], tuple[Array, Array]]
@@ -29,7 +30,8 @@ _USUAL_RATIO = (0.2, 1.6)
 """Size of a scan against its part's, as partial views and clutter leave it; theory: a whole one has .7 to 1, by how its
 points are spread, and the smallest factor, 10, brings no view of more than a fifth of the part into this range."""
 _EXPLAINED_RATIO = (0.1, 1.6)
-"""Where a factor has to bring the size of a scan to explain it."""
+"""Size of a scan against its part's, once multiplied by a factor that explains it (theory: as above, and half of the
+smallest for one seen from aside)."""
 _CLUTTERED_RATIO = 16.0
 """Where it may bring that of a scan with much beside the part; theory: ten times the largest that is explained."""
 _ABSURD_RATIO = (0.12, 6.0)
@@ -37,12 +39,13 @@ _ABSURD_RATIO = (0.12, 6.0)
 has no more than .1 or no less than 7."""
 _ON_PART, _HALF = 0.8, 0.5
 """Share of the points near the part that has to lie on it to speak for a factor, and of the part's size that they have
-to span to fill it; and how much nearer they have to be, or how much less they have to span, as they are."""
+to span to fill it; and how much nearer they have to be, or how much less they have to span, as they are (calibrated: by
+hand, on the scans of tests/api/test_units.py)."""
 _REACH, _MARGIN = 0.03, 0.05
-"""How far from the part its deformed scan may lie, as a part of the scan's size, and beyond the part's box, of the
-part's. Physical: sheet metal springs back by a few hundredths of its size."""
+"""How far from the part its deformed scan may lie, over the scan's size, and beyond the part's box, over the part's
+(unit: sheet metal springs back by a few hundredths of its size)."""
 _LOOKED_AT, _NEAR_POINTS = 2_000, 50
-"""Points of a scan that are looked at, and how many near the part tell anything."""
+"""Points of a scan that are looked at (unit: time), and how many near the part tell anything (unit)."""
 
 
 @dataclass(frozen=True)

@@ -91,14 +91,16 @@ class Effort:
     look_around: bool
 
 
-# Numbers of points are theory: a share of n points is known to 0.5/√n, a pose to σ/√n. Gates begin at what the starts
-# leave (unit) and end at what the next stage can tell (theory).
+# Theory: a share of n points is known to 0.5/√n, a pose to σ/√n, which gives the numbers of points; gates end at what
+# the next stage can tell. Unit: gates begin at what the starts leave. Calibrated: by hand, on the scans of
+# ``./ffds benchmark alignment``: how many poses are kept from stage to stage.
 QUICK = Effort(
     points=1_500, pool=24_000, finer=1, stride=3, table_from=0.75, starts="close",
     stages=(SearchStage(90, 0.30, 0.07, 7, 0.04, 6, 0.1), SearchStage(250, 0.07, 0.02, 5, 0.015, 1, 0.05)),
     both_sides=True, refine_steps=5, refine_stride=2, settle_steps=0,
     rungs=(Rung(1, ()), Rung(1, STIFF[:2], afresh=False), Rung(1, SOFT[2:4], afresh=False)), clear=True,
     prefers="turn", look_around=False)
+# Theory, unit, calibrated: as above.
 NEARBY = Effort(
     points=2_000, pool=40_000, finer=4, stride=1, table_from=0.0, starts="nearby",
     stages=(SearchStage(120, 0.30, 0.10, 6, 0.05, 240, 0.0), SearchStage(250, 0.10, 0.05, 6, 0.04, 40, 0.12),
@@ -106,6 +108,7 @@ NEARBY = Effort(
     both_sides=False, refine_steps=12, refine_stride=1, settle_steps=8, rungs=(Rung(4, STIFF), Rung(1, SOFT)),
     clear=False, prefers="turn", look_around=True)
 ANYWHERE = replace(NEARBY, starts="anywhere", prefers="score")
+# Theory, unit, calibrated: as above.
 AROUND = replace(NEARBY, starts="around", prefers="nearest", look_around=False,
                  stages=(SearchStage(150, 0.08, 0.05, 6, 0.04, 30, 0.08),
                          SearchStage(600, 0.05, 0.03, 8, 0.03, 5, 0.04)))

@@ -3,10 +3,12 @@
 
 *theory*: it follows from a source or from arithmetic, such as how exact a discrete thing has to be for its use, or how
 many points bring noise down to what is asked (standard deviation σ/√n). *unit*: an assumption on the physical world, on
-how parts deform and what scanners see. *calibrated*: ``./ffds benchmark calibrate`` finds it, from right poses and from
-scans of other parts, on the families `CALIBRATION` of ``benchmark/simulated/other_parts.py``, which no reported figure
-uses. "Size" is the diagonal of the part's box, σ the noise of the scan: nothing here has a fixed length, so that a part
-of 10 mm and one of 3 m are aligned alike.
+how parts deform and what scanners see, or on what time and memory are worth. *calibrated*: the command ``./ffds
+benchmark calibrate`` finds it, from right poses and from scans of other parts, on the families `CALIBRATION` of
+``benchmark/simulated/other_parts.py``, which no reported figure uses; calibrated *by hand*: it was picked by looking at
+the parts of ``./ffds benchmark alignment``. Several of the others were first picked in that way too: their word
+explains them, but did not set them. "Size" is the diagonal of the part's box, σ the noise of the scan: nothing here has
+a fixed length, so that a part of 10 mm and one of 3 m are aligned alike.
 """
 from __future__ import annotations
 
@@ -99,7 +101,7 @@ class PolishSettings:
     deformed_height: float = 0.002       # sizes that a fifth of the points exceed where a part is deformed; unit
     far_turn: float = 0.07               # rad; theory: the first matches were then off by a face's width
     first_points: int = 500              # theory: σ/√n is a twentieth of the noise
-    rough_points: int = 2_500            # the same of a scan with large noise
+    rough_points: int = 2_500            # of a scan with large noise; theory: σ/√n is a fiftieth of it
     height_points: int = 3_500           # theory: σ/√n below .02 mm for σ up to 1 mm
     end_points: int = 60_000             # theory: five for each step of the rims
     deformed_points: int = 1_000         # theory: some thirty for each monomial
@@ -121,7 +123,7 @@ class EvidenceSettings:
     cap: float = 0.008                   # sizes beyond which a point is unexplained; unit: half a sheet
     cap_sigmas: float = 4.0              # the same in σ; theory: a normal distribution ends there
     agreeing_cosine: float = 0.6         # unit: 53°, what noise does to normals
-    seen_cosine: float = 0.5             # the same, of a sample and of the points around it
+    seen_cosine: float = 0.5             # of a sample and of the points around it; unit: 60°, what noise does
     hiding_noise: float = 0.003          # sizes; unit: more noise than this hides which side of a sheet is seen
     cameras: int = 3                     # unit: scans are put together from few shots
     least_gain: float = 0.02             # of the surface that a camera has to show; theory: half of 64 views' steps
@@ -151,8 +153,8 @@ class VerdictSettings:
     nearer: float = 0.005                # sizes; unit: less than the thickness of a sheet
     promising: float = 0.1               # of the score; theory: 5 σ of a share of 500 points
     near: float = 0.008                  # sizes within which a normal may be flipped; unit: half a sheet
-    clear_explained: float = 0.90        # of the scan, for a quick answer; unit: a scan without clutter
-    clear_misfit: float = 0.65           # of the other side's; unit: the right side fits a third better, half followed
+    clear_explained: float = 0.90        # of the scan, for a quick answer; calibrated: by hand, see the module
+    clear_misfit: float = 0.65           # of the other side's, for a quick answer; calibrated: by hand, see the module
     near_sigmas: float = 4.0             # the same in σ; theory: a normal distribution ends there
     flip_reach: float = 0.05             # sizes; unit: the largest deformation
     stray_normals: float = 0.15          # unit: the largest share of normals that have gone astray one by one

@@ -11,9 +11,9 @@ from ..arrays import Array
 from .parallel import workers
 
 _LEAST_AGREEMENT = 0.6
-"""Cosine below which two neighbours say nothing about each other's side."""
+"""Cosine below which two neighbours say nothing about each other's side (unit: 53°, what noise does to normals)."""
 _FAR_NEIGHBOUR = 4.0
-"""Neighbours farther than the usual ones by this factor are of another surface."""
+"""Neighbours farther than the usual ones by this factor are of another surface (unit)."""
 
 
 def orient_normals(points: Array, normals: Array, neighbours: int = 9) -> tuple[Array, NDArray[np.intp]]:

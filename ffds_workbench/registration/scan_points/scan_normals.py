@@ -11,8 +11,10 @@ from ..footpoints import SurfaceCoordinates
 from ..uv_raster import Raster, dot
 
 _PLANE_NEIGHBOURS = 12
+"""Points that a plane is put through (unit: few, as a surface is curved)."""
 _ALIKE_COSINE = 0.6
-"""Cosine of the angle between a point's normal and its face's from which they face the same way."""
+"""Cosine of the angle between a point's normal and its face's from which they face the same way (unit: 53°, what noise
+does to normals)."""
 
 
 def scan_normals(points: Array) -> Array:

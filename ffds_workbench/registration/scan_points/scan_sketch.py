@@ -17,23 +17,29 @@ from .normal_sides import orient_normals
 from .parallel import workers
 
 _POOL_SIZE = 40_000
+"""Points of the scan that are looked at (unit: time)."""
 _POINT_COUNT, _FINER_FACTOR = 2_000, 4
+"""Even points of a sketch (theory: a share of them is known to 1 %, 0.5/√n), and how many times as many their sides are
+found on (unit: distant neighbours link surfaces that are not connected)."""
 _PLANE_NEIGHBOURS = (14, 40)
+"""Points that a plane is put through, and of a rougher scan (unit: few, as a surface is curved)."""
 _ROUGHNESS = 0.22
-"""Ratio of local roughness to neighbourhood radius above which a wider neighbourhood gives better normals."""
+"""Ratio of local roughness to the radius of a neighbourhood above which a wider one gives better normals (theory: a
+plane through 14 points then turns by 7°)."""
 _SPARSE_IN_SCAN, _ALONE_AMONG_OWN = 4.0, 1.6
 """A point is isolated if its neighbours are farther away, by the first factor, than in the median of the scan, or, by
-the second, than the neighbours' own neighbours are."""
+the second, than the neighbours' own neighbours are (calibrated: by hand, on the scans of ``./ffds benchmark
+alignment``)."""
 _DENSITY_NEIGHBOURS, _NEIGHBOUR_STRIDE, _MEDIAN_POINTS, _DOUBTFUL_DENSITY = 9, 3, 500, 1.3
 """Number of neighbours, the point itself included; stride of those that are compared with their own neighbours; number
-of points for the median; and factor above the median from which a point is examined."""
+of points for the median; and factor above the median from which a point is examined (unit: time)."""
 _INVERSE_STEPS = 2
-"""Further steps of inverse iteration for a normal. Each divides the error by the ratio of the two smallest eigenvalues,
-which is 4 or more on a surface."""
+"""Further steps of inverse iteration for a normal (theory: each divides the error by the ratio of the two smallest
+eigenvalues, which is 4 or more on a surface)."""
 _COUNT_TOLERANCE = 1.15
-"""Thinning stops when the number of points is within this factor of the number wanted."""
+"""Thinning stops when the number of points is within this factor of the number wanted (unit: time)."""
 _CELLS_PER_POINT = 100
-"""With at most this many cells per point, a table of all cells is faster than sorting the points."""
+"""With at most this many cells per point, a table of all cells is faster than sorting the points (unit: time)."""
 
 
 @dataclass(frozen=True)

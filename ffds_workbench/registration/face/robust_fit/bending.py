@@ -16,6 +16,8 @@ from .normal_equations import NormalMatrix, grid_products, offset_products
 
 _ORDERS = ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 _LEAST_NODES = 16
+"""Gauss points per direction of a face at least (theory: two per span integrate a cubic's bending; more where spans are
+few and the surface is curved)."""
 
 
 def bending_and_gauge(surface: SplineSurface, lattice: ControlLattice, layout: NormalMatrix) -> tuple[Array, Array]:

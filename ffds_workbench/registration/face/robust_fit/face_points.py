@@ -16,8 +16,9 @@ from ...footpoints import Locator, SurfaceCoordinates, joined, located, make_loc
 from ...uv_raster import Raster
 
 _MOST_KEPT = 150_000
+"""Foot points that are kept in memory; those of larger scans are located anew in every step (unit: memory)."""
 _DRAWN = 2
-"""The sample is drawn from this many times as many scan points."""
+"""The sample is drawn from this many times as many scan points (unit: half of a scan lies off the face)."""
 
 
 @dataclass(frozen=True)

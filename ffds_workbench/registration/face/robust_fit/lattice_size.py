@@ -22,20 +22,32 @@ from .normal_equations import LEAST_NOISE
 Index = NDArray[np.intp]
 
 _SPAN_IN_LENGTHS = 4.0
+"""Shortest span over the length that a smoothing spline averages over (theory: finer spans add nothing)."""
 _COARSE_SPANS = 7
+"""Spans along the longer side in the early steps (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark
+accuracy``)."""
 _LARGEST_TURN = np.radians(30)
+"""Turn of the normal over a span in rad (theory: a cubic follows such an arc to 2e-4 of its radius)."""
 _LEAST_CONTROLS, _LARGEST_CONTROLS = 4, 64
+"""Control points per direction: a cubic's least (theory), and the most (unit: time)."""
 _TRIED_SPANS = (2, 3, 4, 6, 8, 11, 15, 20, 27)
+"""Numbers of spans along the longer side that are tried, each a third more than the one before (unit: time)."""
 _HELD_OUT_BLOCKS, _HELD_OUT_SHARE = 3, 0.125
-"""Side of the squares that are held out: in blocks and in lengths of the face, so that noise has little in common with
-what is left."""
+"""Side of the squares that are held out, in blocks and in lengths of the face (unit: noise there then has little in
+common with what is left)."""
 _FOLD_COUNT = 4
+"""Parts that are held out in turn (theory: no two neighbouring squares are in the same)."""
 _ALIKE_RESIDUALS = 0.01
-"""Of two lattices whose held-out residuals (squared) differ by less than this share the smaller is taken."""
+"""Of two lattices whose squared held-out residuals differ by less than this share the smaller is taken (calibrated: by
+hand, on the synthetic sheets of ``./ffds benchmark accuracy``)."""
 _ALWAYS_TRIED, _PATIENCE = 8, 2
+"""Spans up to which all sizes are tried, and larger sizes that may be worse than the best one before the search ends
+(unit: time)."""
 _OUTLIER_VARIANCES = 16.0
-"""Squared residuals count up to this many variances: one stray layer must not decide."""
+"""Variances at which a squared residual is cut, so that no single stray layer decides (theory: four standard
+deviations)."""
 _BENDING_NODES = 100
+"""Places over [0, 1] at which products of basis functions are summed: three or more a span (unit: time)."""
 
 
 def coarse_lattice(raster: Raster, layers: Layers, stiffness: float) -> tuple[int, int]:

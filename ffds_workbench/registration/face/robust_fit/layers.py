@@ -19,24 +19,38 @@ from ...uv_raster import Raster
 Index = NDArray[np.intp]
 
 _POINTS_PER_BLOCK = 16
+"""Points of an occupied block (theory: a layer's median is then known to a third of the noise)."""
 _SMALLEST_GAP = 0.5
+"""Smallest gap in mm that parts two layers (unit: thinner than sheet metal)."""
 _GAP_IN_SIGMAS = 5.0
+"""The same in standard deviations of the noise (theory: 16 points of normal noise leave no such gap)."""
 _DENSE_SHARE = 0.3
-"""A layer counts if it has this share of the points of the densest layer of its block."""
+"""A layer counts if it has this share of the points of the densest layer of its block (calibrated: by hand, on the
+synthetic sheets of ``./ffds benchmark accuracy``)."""
 _THIRD_OF_NORMAL = 0.8615
-"""Width of the shortest interval that holds a third of a normal distribution, in standard deviations."""
+"""Width of the shortest interval that holds a third of a normal distribution, in standard deviations (theory)."""
 _CLEAN_QUANTILE = 0.3
-"""Quantile of the blocks by which the noise is judged: the others may hold walls, steps and slopes."""
+"""Quantile of the blocks by which the noise is judged: the others may hold walls, steps and slopes (calibrated: by
+hand, on the synthetic sheets of ``./ffds benchmark accuracy``)."""
 _MOST_PLANES = 500
+"""Blocks that planes are put through (theory: a quantile of them is known to 2 % of the blocks)."""
 _THICK_LAYER, _STEEP_LAYER = 3.0, 0.15
-"""A layer whose middle half is thicker than 3 × (noise + 0.15 × its block) is no sheet seen from above."""
+"""A layer whose middle half is thicker than 3 × (noise + 0.15 × its block) is no sheet seen from above (theory: the
+middle half of normal noise is 1.35 standard deviations thick; unit: a slope of 0.15)."""
 _START_OFFSETS = 21
+"""Offsets along the normal that the stiff motion is tried from (unit: at a reach of 15 mm, 1.5 mm apart, within the
+last gate)."""
 _START_GATES = (6.0, 4.0, 3.0, 2.6, 2.6)
+"""Gates in mm of the steps from each of them (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark
+accuracy``)."""
 _SHEET_WINDOW = 4.0
-"""Layers this close (mm) to a start may be two skins of one sheet, and the outermost is taken."""
+"""Layers this close to a start, in mm, may be the two skins of one sheet, and the outermost is taken (unit: sheets are
+thinner)."""
 _FARTHER_PENALTY = 0.3
-"""How much more, as a share, a start at the end of the reach has to explain than a start at the nominal face."""
+"""How much more, as a share, a start at the end of the reach has to explain than one at the nominal face (calibrated:
+by hand, on the synthetic sheets of ``./ffds benchmark accuracy``)."""
 _EXPECTED_TILT = 0.1
+"""Expected tilt of a face in rad (unit)."""
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,11 @@ from ..control_lattice import ControlLattice
 Index = NDArray[np.intp]
 
 LEAST_NOISE = 0.1
-"""A fit never trusts points more than this (mm): noise that neighbours have in common does not show in residuals."""
+"""Standard deviation in mm with which points are trusted at the best: noise that neighbours have in common does not
+show in residuals (unit: what a scanner of parts of some decimetres shares)."""
 
 _OFFSETS = 2 * DEGREE + 1
+"""Basis functions that overlap with one, itself counted (theory)."""
 
 
 def offset_products(left: Array, right: Array) -> Array:

@@ -22,12 +22,18 @@ from .robust_settings import LAYERS, MAIN_PATCHES, PROVEN, RobustSettings
 Index = NDArray[np.intp]
 
 _LARGEST_SLOPE = 0.2
+"""Slope of the residual from layer to layer up to which no step lies between them (calibrated: by hand, on the
+synthetic sheets of ``./ffds benchmark accuracy``)."""
 _NOISE_FACTOR = 2.0
+"""Standard deviations of the noise that are added to it (theory: layers are known better than that)."""
 _MAIN_PATCH_SHARE = 0.1
+"""Of the heaviest patch's weight, that a main patch carries (calibrated: by hand, on the synthetic sheets of ``./ffds
+benchmark accuracy``)."""
 _SPARSE_LAYER = 0.25
 """Layers with less than this share of the usual number of points are joined to none: outliers between two sheets would
-join these."""
+join these (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark accuracy``)."""
 _MOST_LAYERS = 4
+"""Layers of a block that are joined to others (unit: two skins, a table and a neighbour)."""
 
 
 @dataclass(frozen=True)

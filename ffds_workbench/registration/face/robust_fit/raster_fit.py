@@ -28,17 +28,21 @@ from .robust_settings import RobustSettings
 Index = NDArray[np.intp]
 
 _RIM_BLOCK = 8
-"""Points near the trims are judged in blocks of 8 × 8 cells."""
+"""Cells along the side of the blocks in which points near the trims are judged (theory: some dozens of points)."""
 _STRAY_SHARE, _OFF_SURFACE = 0.1, 0.2
-"""A block of the rim is used if at most a tenth of its points are beyond the gate, and the mean of the others is within
-0.2 standard deviations of the surface, or three of its own."""
+"""A block near the trims is used if at most a tenth of its points lie beyond the gate, and the mean of the others
+within 0.2 standard deviations of the surface, or three of its own (calibrated: by hand, on the synthetic sheets of
+``./ffds benchmark accuracy``; theory: normal noise)."""
 _BENDING_SHARE, _EVEN_SHARE, _LONGEST_LENGTH = 0.1, 0.6, 20.0
-"""Weights of all bending and of uneven bending, as shares of the weight that bending had before; and the longest length
-in mm over which curvature is expected to change."""
+"""Weights of all bending and of uneven bending, as shares of the weight that bending had before, and the longest length
+in mm over which curvature is expected to change (calibrated: by hand, on the synthetic sheets of ``./ffds benchmark
+accuracy``)."""
 _LARGEST_NOISE_GROWTH = 1.5
-"""A step may not find more than this multiple of the noise that it assumed: gates that follow clutter never narrow."""
+"""Noise that a step may find, over the noise that it assumed: gates that follow clutter would never narrow (calibrated:
+by hand, on the synthetic sheets of ``./ffds benchmark accuracy``)."""
 _STEEPEST = 0.5
-"""Largest change of the shift from cell to cell, in cells, and of the height, in cell sizes, that is still a graph."""
+"""Change of the shift from cell to cell, in cells, and of the height, in cell sizes, up to which the surface is a graph
+over the nominal (theory: well below 1, where it folds)."""
 
 
 @dataclass(frozen=True)

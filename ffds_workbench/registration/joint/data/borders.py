@@ -20,33 +20,46 @@ from ..priors import SharedEdgePlaces
 from ..surfaces import FacePlaces, SpanGrid, by_face, concatenate
 
 _LARGEST_OFFSET = 6.0, 0.7
-"""A border farther from its edge than this many spacings of points, or this part of the reach, is ignored; scan points
-belong to the nearest edge sample within twice of it."""
+"""A border farther from its edge than this many spacings of points, or this part of the reach, whichever is more, is
+ignored; scan points within twice as far belong to the nearest edge sample (calibrated: by hand, on the families of
+``./ffds benchmark accuracy``)."""
 _POINTS_LAST = 0.6
-"""Points keep their edge samples until the edges have moved by this many spacings; the samples are farther apart."""
+"""Points keep their edge samples until the edges have moved by this many spacings (theory: the samples are farther
+apart)."""
 _BORDERS_LAST = 0.1
-"""Borders are kept until the edges have moved by this many spacings of points."""
+"""Borders are kept until the edges have moved by this many spacings of points (theory: half of what a border is
+uncertain by)."""
 _SHARP_COSINE = 0.7
+"""Cosine of the normals below which an edge is sharp (unit: 45°)."""
 _ASIDE = float(np.sqrt(2.0) - 1) / 2
-"""Of the step between samples: so far along the edge the cell beside a sample is looked for. No ratio of whole numbers:
-samples and cells lie on grids, and rounding must not choose between two cells that are as near."""
+"""The cell beside a sample is looked for this far along the edge, in steps between samples. It is no ratio of whole
+numbers: samples and cells lie on grids, and rounding must not choose between two cells that are equally near
+(theory)."""
 _LARGEST_RANK = 3
-"""Noise carries points over the edge: up to the third outermost is used, and no end is seen where there are fewer."""
+"""Noise carries points over the edge: up to the third outermost is used, and no end is seen where there are fewer
+(unit: denser scans are rare)."""
 _DENSITY_BAND = (1.5, 6.0)
-"""Distance inside the outermost points, in spacings, between which the density is counted."""
+"""Distance inside the outermost points, in spacings, between which the density is counted (theory: from where the end
+no longer thins the points, over a few of them)."""
 _LEAST_BAND_POINTS = 12
+"""Points in that band around a sample (theory: the density is known to 30 %, 1/√n)."""
 _SEEN_BEYOND_SHARE = 0.1511
-"""No ratio of two small numbers: counts are compared, and a tie would hang on rounding."""
+"""Density of points beyond the edge, over that on the face, from which the scan does not end there (calibrated: by
+hand, on the families of ``./ffds benchmark accuracy``). It is no ratio of two small numbers: counts are compared, and a
+tie would hang on rounding."""
 _LEAST_UNCERTAINTY = 0.2
-"""Uncertainty of a visible border in spacings of points: mixed pixels, edge radius."""
+"""Standard deviation of a visible border in spacings of points, at least (unit: mixed pixels, edge radii)."""
 _USUAL_LOSS = 1.0
 """Sensors lose points at edges and never see any beyond them: an end farther inside than this, in spacings, gets less
-weight."""
+weight (unit)."""
 _HUBER_SIGMAS = 2.0
+"""Standard deviations from which a border's weight falls (theory: Huber's loss, at 95 % of normal noise)."""
 _DISCARD_HUBERS = 3.0
+"""Multiple of that from which it has none (theory: normal noise never reaches there)."""
 _EDGE_NEIGHBOURS = 4
-"""Edge samples on either side whose median tells whether one of them is an outlier."""
+"""Edge samples on either side whose median tells whether one of them is an outlier (theory: of nine, four may be)."""
 _MOST_POINTS = 250_000
+"""Scan points that are looked at (unit: time)."""
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,12 @@ from ...arrays import Array, Index
 from ..surfaces import Jet, Lattices, SpanGrid, normals
 
 _WITHIN_CELL = 0.75
+"""Sizes of a cell from its centre within which foot points belong to it (theory: half, and a quarter for neighbours'
+curved borders)."""
 _LOT = 65536
-"""Points that are looked at together: those of a large scan would take more memory than all else."""
+"""Points that are matched together: those of a large scan would take more memory than all else (unit: memory)."""
 _NEGLIGIBLE_SHARE = 0.002
-"""Share of the points up to which those on the wrong side are left out rather than matched again."""
+"""Share of the points up to which those on the wrong side are left out rather than matched again (unit: time)."""
 
 
 @dataclass(frozen=True)

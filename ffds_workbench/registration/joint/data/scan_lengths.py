@@ -15,7 +15,7 @@ from .scan_statistics import ScanStatistics
 
 _TYPICAL, _SEEN = 0.75, 0.4
 """Quantiles of the distances from the nominal part to the scan and back that tell how far the part has moved: most of
-the scan shows the part, or, where a table fills it, some of the part is seen."""
+the scan shows the part, or, where a table fills it, some of the part is seen (unit)."""
 _LARGE = 0.05
 """Typical distance over the size of the part from which the scan may be a table's for the most part (unit)."""
 _FARTHEST = 3.0

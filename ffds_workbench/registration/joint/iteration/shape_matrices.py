@@ -15,8 +15,8 @@ _STRAIN_LASTS = 0.004
 """Over the size of the least solid: until the shape has moved by this, the strain matrices are kept (unit: a small
 share of a span, in which no face turns so far that the steps would go astray)."""
 _SAME_NORMAL = 0.02
-"""The thickness rows are kept while no normal changes by more than this, which changes the thickness by one in five
-thousand."""
+"""Change of a normal up to which the thickness rows are kept (theory: it changes the thickness by 0.02²/2, one in five
+thousand)."""
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,13 @@ from pathlib import Path
 from ....errors import RefusedError
 
 _PER_CONTROL_POINT = 5e3
-"""Bytes for each control point and each halving of their number, down to one: nested dissection of a surface fills so
-much (George 1973). This and the next two are calibrated to 30 %: the largest resident size of ``register`` on parts of
-1,100 to 33,000 control points, 16,000 to 800,000 cells and 60,000 to 1.4 million points."""
+"""Bytes for each control point and each halving of their number, down to one (theory: nested dissection of a surface
+fills so much, George 1973). This and the next two are calibrated to 30 %: by hand, on the largest resident size of
+``register`` on parts of 1,100 to 33,000 control points, 16,000 to 800,000 cells and 60,000 to 1.4 million points."""
 _PER_CELL = 1.5e3
+"""Bytes for each cell (calibrated: as above)."""
 _PER_POINT = 140.0
+"""Bytes for each point (calibrated: as above)."""
 _MEMORY = Path("/proc/meminfo")
 _LIMITS = Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current")
 

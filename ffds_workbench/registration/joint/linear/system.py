@@ -20,9 +20,9 @@ _CG_STEPS = 12
 _CG_TOLERANCE = 3e-3
 """Of the energy norm of the error, where conjugate gradients stop (unit: the next step corrects the rest)."""
 _LOT = 512
-"""Spans whose matrices are made together: those of all would take much memory."""
+"""Spans whose matrices are made together (unit: memory)."""
 _PAIR_ROW, _PAIR_COLUMN = np.triu_indices(16)
-"""Pairs of the control points of a span, (136,) each."""
+"""Pairs of the control points of a span, (136,) each (theory: 16 of them)."""
 
 
 @dataclass(frozen=True)

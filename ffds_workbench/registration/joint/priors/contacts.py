@@ -13,6 +13,7 @@ from .sheet_pairs import parameters
 _CONTACT_GAP = 4e-4
 """Over the size of a solid: what lies nearer to it touches it (unit: twice as much as parts are made to fit)."""
 _WITHIN_CELL = 0.75
+"""Sizes of a cell from its centre within which places belong to it (theory: as of the scan's points)."""
 
 
 def contact_rows(part: JointPart, lattices: Lattices, cells: SpanGrid, sizes: Array) -> csr_matrix:

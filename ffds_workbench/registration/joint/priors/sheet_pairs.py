@@ -15,14 +15,20 @@ _NORMAL_SCALE = 1 / 6
 """Of the size of the solid: what a unit of difference between normals counts for when opposite places are looked for
 (unit)."""
 _OPPOSITE_COSINE = -0.95
+"""Cosine of the normals of the two skins of a sheet at the most (unit: 18°)."""
 _LEAST_SHEET_SHARE = 0.5
+"""Of a solid's area, that has the same thickness where the solid is a sheet (unit: most of it)."""
 _LEAST_SLENDERNESS = 5.0
+"""Side of the square with the area of one skin, over the thickness, from which a solid is a sheet (unit: what is
+stouter does not bend like one)."""
 _SAME_THICKNESS = 0.08
+"""Relative difference of thicknesses that are one (unit: sheets thin a little in bends)."""
 _LEAST_RADIUS = 0.75
 """Of a convex skin, relative to the thickness (theory: an outer bend has the whole thickness or more, and at half of it
 there is no mid surface): what is rounder, as the round of an edge, is no skin."""
 _MASSIVE_GIVE = 0.003
-"""Change of the distance between opposite faces of a massive part, over it: they move together."""
+"""Change of the distance between opposite faces of a massive part, over it: they move together (calibrated: by hand, on
+the families of ``./ffds benchmark accuracy``)."""
 
 
 @dataclass(frozen=True)

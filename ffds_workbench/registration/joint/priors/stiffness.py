@@ -14,15 +14,20 @@ from ...arrays import Array
 from ..surfaces import Lattices, SpanGrid, normals
 
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
+"""Nodes on [−1, 1] and their weights (theory: three integrate the fifth degree exactly)."""
 GAUSS_PLACES = (_GAUSS_NODES + 1) / 2
+"""The same nodes on [0, 1] (theory)."""
 _TENSOR_PAIRS = ((0, 0), (0, 1), (1, 1))
 COMPONENTS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 """Components of a symmetric matrix of x, y and z."""
 _TENSOR_NORM = np.array([1.0, np.sqrt(2.0), 1.0])
+"""Factors of the components 11, 12, 22 of a symmetric tensor in its norm (theory)."""
 SLIDING = 0.3
-"""Weight of what bends within the surface, which is no bending of it, beside what bends across it."""
+"""Weight of bending within the surface, which is none of the shape, over that of bending across it (calibrated: by
+hand, on the families of ``./ffds benchmark accuracy``)."""
 _OUTSIDE_WEIGHT = 1e-3
-"""Weight of the integral outside the trims, where it only has to keep the lattice smooth."""
+"""Weight of the integral outside the trims, where it only has to keep the lattice smooth (unit: so little that no shape
+feels it)."""
 
 
 @dataclass(frozen=True)

@@ -22,22 +22,27 @@ _TOO_THICK = 3.0
 """In a sheet thicker than this many times the expected displacement, the two sides cannot be confused (unit)."""
 # What is clearly less is a judgement (unit), tried on the sheets of tests/registration/test_joint_skins.py.
 _CLOSER = 0.85
-"""A sign is chosen for a piece if its points then lie closer to the part, by this factor, than with the other sign."""
+"""A sign is chosen for a piece if its points then lie closer to the part, by this factor, than with the other sign
+(calibrated: by hand, on the sheets of tests/registration/test_joint_skins.py)."""
 _LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
 """Also if fewer points, by the first factor, find no counterpart on the part. Both counts are first raised by the
-second number times the size of the piece."""
+second number times the size of the piece (calibrated: by hand, on the sheets of
+tests/registration/test_joint_skins.py)."""
 _LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
+"""Points near the part without which nothing is told, and points of a piece whose mean is trusted (theory: a share of
+30 is known to a tenth)."""
 _DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
 """Both signs are tried where the distances differ by less than the first factor and the piece holds more than the
-second share of the points."""
+second share of the points (calibrated: by hand, on the sheets of tests/registration/test_joint_skins.py)."""
 _AGREEMENT = 0.5
-"""Mean of the signs within a smooth piece above which they are trusted."""
+"""Mean of the signs within a smooth piece above which they are trusted (unit: three of four agree)."""
 _MUCH_CLOSER = 0.5
-"""A piece that lies closer to the part by this factor is believed even against the scan's normals."""
+"""A piece that lies closer to the part by this factor is believed even against the scan's normals (calibrated: by hand,
+on the sheets of tests/registration/test_joint_skins.py)."""
 _NORMALS_AGREE, _TELLING_NORMALS_SHARE, _CONTRADICTION_SHARE = 0.7, 0.5, 0.1
-"""The scan's normals are trusted on a smooth piece if their mean cosine with its own normals is above the first number,
-and at all only if such pieces hold the second share of the scan. Both sides are tried if the points contradict the
-normals on more than the third share."""
+"""The scan's normals are trusted on a smooth piece if their mean cosine with the piece's own normals is above the first
+number, and at all only if such pieces hold the second share of the scan. Both sides are tried if the points contradict
+the normals on more than the third share (unit: 45°, most of the scan, a tenth of it)."""
 _NORMAL_REACH_IN_SPACINGS = 3.0
 """A scan point takes the normal of a point of the sketch within this many mean spacings (unit)."""
 

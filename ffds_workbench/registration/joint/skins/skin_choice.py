@@ -16,15 +16,16 @@ from ..surfaces import normals
 
 # What is clearly less is a judgement (unit), tried on the sheets of tests/registration/test_joint_shapes.py.
 _COST_RATIO, _COST_OF_LOST_POINT = 0.8, 9.0
-"""The fit to one skin is right if it costs less than this factor times the other. A point left out counts as one three
-standard deviations away, 3² in chi-square units."""
+"""The fit to one skin is right if it costs less than this factor times the other (calibrated: by hand, on the sheets of
+tests/registration/test_joint_shapes.py). A point left out counts as one three standard deviations away, 3² in
+chi-square units (theory)."""
 _WALL_POINTS, _WALL_RATIO = 50, 3
-"""Else the fit is right that explains clearly more points on the walls beside the skins: more than the second number
-times the other fit's, plus the first."""
+"""Otherwise the fit is right that explains clearly more points on the walls beside the skins: more than the second
+number times the other fit's, plus the first (calibrated: as above)."""
 _MOVED_CLEARLY_LESS, _MOVED_ALIKE = 0.6, 0.9
-"""Else the fit that moved less is right if its movement is below the first factor times the other's. Above it this is a
-guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other moved
-less by the first factor, with such wide bands if it moved less by the second."""
+"""Otherwise the fit that moved less is right if its movement is below the first factor times the other's. Above it this
+is a guess, with bands as wide as the sheet is thick. A fit that the scan's normals favour is kept unless the other
+moved less by the first factor, with such wide bands if it moved less by the second (calibrated: as above)."""
 
 
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:

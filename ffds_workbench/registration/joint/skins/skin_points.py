@@ -19,8 +19,8 @@ _ONE_SKIN_RADIUS, _MIXED_RADIUS, _BOTH_SKINS_RADIUS = 0.5, 0.8, 2.0
 """Radius of a neighbourhood over the thickness up to which it holds points of one skin, from which it may hold some of
 the other, and from which those turn its plane no more: two parallel planes have the normal of one (unit)."""
 _COUNT_BOUNDS, _POINT_DISTANCE, _SPARE_FACTOR = (2500, 40_000), 0.6, 2
-"""Points that tell sides, at least and at most; their distance over the thickness, as far ones link skins; and how many
-times as many even ones are taken from."""
+"""Points that tell sides, at least and at the most (unit: time); their distance over the thickness, as more distant
+ones link skins (unit); and how many times as many even ones are taken from."""
 _ROUNDS = 3
 """Sizes of cubes that are tried (unit)."""
 _STRAY_DISTANCE = 3.0

@@ -11,7 +11,8 @@ from ...arrays import Array, Index
 
 _NEIGHBOURS, _SMOOTH_COSINE, _SMOOTH_RISE = 9, 0.9, 0.35
 """Number of neighbours; two of them lie on one smooth surface if the cosine of their normals is above the second number
-and the sine of the step out of their planes is below the third."""
+and the sine of the step out of their planes is below the third (unit: 26°, and a step of 20° that no sheet's edge
+keeps)."""
 
 
 def smooth_pieces(points: Array, directions: Array) -> tuple[Index, Array]:

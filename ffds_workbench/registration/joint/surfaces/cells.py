@@ -24,8 +24,9 @@ _BORDER_SPACING = 0.2467
 """Of places along the border of a face, over the least distance that is asked for: it is right to 2 % (unit). No ratio
 of whole numbers: borders are whole numbers of cells long, and rounding must not choose how many places there are."""
 _FACE_SEPARATION = 1e6
+"""Distance in mm that parts faces in a tree (theory: farther than any part is large)."""
 _LOT = 512
-"""Spans that are moved together: what they need on the way stays in the cache."""
+"""Spans that are moved together (unit: memory of a processor's cache)."""
 
 
 @dataclass(frozen=True)

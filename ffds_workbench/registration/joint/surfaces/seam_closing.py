@@ -12,6 +12,7 @@ from .lattices import FaceLattice, Lattices
 from .part import JointPart, SharedEdge
 
 _ON_SIDE = 1e-6
+"""Of the range: parameters nearer to a side of it lie on it (theory: far above rounding)."""
 
 
 def close_seams(part: JointPart, lattices: Lattices, control_points: Array) -> Array:

@@ -10,15 +10,18 @@ from ..problem import Problem
 from ..surfaces import FacePlaces
 
 TWO_SIDED = 1.96
+"""Standard deviations within which 95 % of a normal distribution lie (theory)."""
 _UNSEEN_QUANTILE, _UNSEEN_DISTANCE = 4.30, 6.0
 """The 95 % quantile where the shape rests on priors alone, and from how many spacings of points beside the observed
-area. Bends gather in places, so that errors are distributed as Student's t with two degrees of freedom."""
+area. Bends gather in places, so that errors are distributed as Student's t with two degrees of freedom (theory; the
+distance calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 _NEIGHBOUR_LEAK, _LEAK_ZONE = 0.08, 3.0
 """Standard deviation, over the noise's, of the error that points of the neighbouring face cause at a border; and how
-far it reaches into the face, in margins that points keep from it."""
+far it reaches into the face, over the margin that points keep from it (calibrated: by hand, on the families of ``./ffds
+benchmark accuracy``)."""
 _EDGE_MISFIT = 0.3, 0.1
-"""Standard deviation of the place of an edge, beyond what the covariance of its faces explains, from the noise and from
-the spacing of the points, over them (calibrated: families of the accuracy benchmark)."""
+"""Standard deviation of the place of an edge, beyond what the covariance of its faces explains: a share of the noise
+and a share of the spacing of the points (calibrated: by hand, on the families of ``./ffds benchmark accuracy``)."""
 
 
 def span_covariance(problem: Problem, covariance: Array, spans: Index) -> Array:

@@ -14,10 +14,13 @@ from ..problem import Problem
 
 OBSERVED, BRIDGED, CARRIED = "observed", "bridged", "carried"
 _NEAR_IN_SPACINGS = 3.0
+"""Distance from an observed cell up to which a place is observed, in spacings of points (theory: points at random leave
+no wider gap)."""
 _SEEN_FACE_SHARE = 0.05
+"""Share of a face that has to be observed for the rest of it to be bridged (unit)."""
 _NEAR_EDGE = 2.0
-"""Observed cells this many times as near as others have to be, or this many trim margins, make an edge observed: none
-lie nearer than the margin."""
+"""Observed cells this many times as near as others have to be, or within this many trim margins, make an edge observed
+(theory: none lie nearer than the margin)."""
 
 
 @dataclass(frozen=True)

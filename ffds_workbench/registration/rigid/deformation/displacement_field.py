@@ -21,9 +21,10 @@ from ..model import SurfaceSamples, Target, kept_with_target
 from ..settings import LARGEST_DEGREE, DeformationSettings
 
 _SURFACE_STRAIN = (0, 0, 1.0), (1, 1, 1.0), (0, 1, sqrt(2.0))
+"""Components (i, j) of the strain tensor within the surface, in a frame of two tangents and the normal. The third
+number is the square root of how often the component occurs in the symmetric tensor (theory)."""
 _THICKNESS_STRAIN = (2, 2, 1.0), (0, 2, sqrt(2.0)), (1, 2, sqrt(2.0))
-"""Components (i, j) of the strain tensor within the surface and through it, in a frame of two tangents and the normal.
-The third number is the square root of how often the component occurs in the symmetric tensor."""
+"""The same through the thickness (theory)."""
 
 
 @dataclass(frozen=True, eq=False)

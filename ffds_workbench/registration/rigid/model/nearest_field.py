@@ -13,6 +13,7 @@ from ..search_settings import SearchSettings
 from .part_samples import Target, kept_with_target
 
 _SIDES = np.concatenate([np.eye(3), -np.eye(3)])
+"""Directions of the normal that have a table each (theory: the six sides of a cube)."""
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from .rims import Rims
 
 Result = TypeVar("Result")
 _FLAT_SHADOW = 1e-9
-"""Width of a shadow, as a share of its length, that is none."""
+"""Width of a projection over its length below which it has no area (theory: far above rounding)."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ from ..model import Rims
 from ..settings import RimSettings
 
 _EITHER_SIDE = 2
-"""Stretches on either side that one is compared with: a stray point or a hole shows in a single one."""
+"""Stretches on either side that one is compared with: a stray point or a hole shows in a single one (theory: a median
+of five)."""
 
 
 @dataclass(frozen=True)
