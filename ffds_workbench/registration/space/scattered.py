@@ -18,22 +18,24 @@ from ..arrays import Array
 from .space_lattice import SpaceField, lattice_over
 
 _FIRST_CELLS = 4
-"""Cells along the longest side of the box on the first level."""
+"""Cells along the longest side of the box on the first level (unit: a bend and a twist are told by so few)."""
 _MOST_CELLS = 160
 """Cells along the longest side (unit: finer detail than a hundredth of the part is no deformation of it)."""
 _MOST_CONTROLS = 1_500_000
+"""Control points of the finest lattice (unit: memory, 36 MB)."""
 _CELLS_PER_SPACING = 1.2
-"""Cells are no smaller than the spacing of the points over this: between the points they would tell nothing."""
+"""Cells are no smaller than the spacing of the points over this (unit: between the points they would tell
+nothing)."""
 _RIDGE = 0.03
 """Over the usual column: what the points do not tell stays near nothing (unit: far less than a point tells)."""
 _RIDGE_DIRECT = 1e-4
 """The same where a level is solved directly (unit: what rounding leaves of the squares)."""
 _MOST_DIRECT = 2500
-"""Control points up to which a level is solved directly (time: a second)."""
+"""Control points up to which a level is solved directly (unit: time, a second)."""
 _SOLVER_STEPS = 60
-"""Steps of the solution of a finer level (time: the next one takes on what is left)."""
+"""Steps of the solution of a finer level (unit: time; the next one takes on what is left)."""
 _FLAT = 1e-9
-"""Singular values of the places, over the largest, in whose directions nothing is known."""
+"""Singular values of the places, over the largest, in whose directions nothing is known (unit: what rounding leaves)."""
 _NOISE_REACHED = 2.366
 """Median of the squares of what is left over the variances at which noise alone is left (theory: chi-square of three
 degrees of freedom); a few wild vectors do not shift it."""
