@@ -59,8 +59,8 @@ class AlignedScan:
             here = self.scan.points.mean(axis=0)
             others = [describe_difference(found.T_model_scan, pose.T_model_scan, here) for pose in found.poses[1:]]
             lines += [f"Also fits    {'; '.join(dict.fromkeys(others))}",
-                      "Which one    nothing in the scan tells: turn it about as it should lie and align it with mode "
-                      "fine, or scan more of the part"]
+                      "Which one    the scan alone cannot decide: turn it roughly into place and align it with "
+                      "mode fine, or scan more of the part"]
         if found.scale != 1.0:
             lines.append(f"Unit         the scan is in {found.unit}, or the model's file declares a wrong unit: the "
                          f"scan's coordinates were multiplied by {found.scale:g}")

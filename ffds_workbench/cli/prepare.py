@@ -14,8 +14,8 @@ from .terminal import Progress
 
 def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
-    command = commands.add_parser("prepare", help="clean a scan: crop it, take the table, clutter and outliers "
-                                                         "away, thin it",
+    command = commands.add_parser("prepare", help="clean a scan: crop it, remove the table, clutter and outliers, "
+                                                         "thin it",
                                   epilog="The steps are done in the order in which they are listed.")
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN", help="one, or several of one part")
     command.add_argument("--out", type=Path, required=True, metavar="CLEAN.ply", help="the prepared scan, in mm")
@@ -24,10 +24,10 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--poses", type=Path, metavar="POSES.json",
                          help="where several scans belong: a list of (4, 4) matrices in mm, one per scan; refined")
     command.add_argument("--box", type=_numbers(6), metavar="X0,Y0,Z0,X1,Y1,Z1", help="keep what is inside, mm")
-    command.add_argument("--near", nargs=2, metavar=("MODEL", "MM"), help="keep what is this near to the model")
+    command.add_argument("--near", nargs=2, metavar=("MODEL", "MM"), help="keep only points this near to the model")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
-    command.add_argument("--remove-plane", action="store_true", help="take the table away, and what is behind it")
-    command.add_argument("--remove-clutter", action="store_true", help="take away what stands apart from the part")
+    command.add_argument("--remove-plane", action="store_true", help="remove the table and what is behind it")
+    command.add_argument("--remove-clutter", action="store_true", help="remove what stands apart from the part")
     command.add_argument("--remove-outliers", action="store_true", help="take single points away")
     command.add_argument("--normals", action="store_true", help="estimate normals, towards the sensor")
     command.add_argument("--view", type=_numbers(3), metavar="X,Y,Z",

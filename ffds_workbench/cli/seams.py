@@ -45,10 +45,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
     which = command.add_argument_group("which seams")
     which.add_argument("--edge", nargs="+", action="extend", default=[], metavar="EdgeN",
-                       help="edges, joined where they go on along tangency; with --auto, only the joints along them")
+                       help="edges, joined where they continue tangentially; with --auto, only the joints along them")
     which.add_argument("--auto", type=float, metavar="TOL", help="find the joints of parts that touch within TOL mm")
     which.add_argument("--chain", action="store_true",
-                       help="add the edges that go on from the named ones along tangency")
+                       help="add the edges that continue the named ones tangentially")
     which.add_argument("--start", type=_numbers(3), metavar="X,Y,Z",
                        help="where a closed seam starts, or the end to start at")
     which.add_argument("--reverse", action="store_true", help="weld in the other direction")
@@ -74,7 +74,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def _add_carry(commands: argparse._SubParsersAction) -> None:
-    command = commands.add_parser("carry", help="carry a path taught on the nominal model to the as-built one")
+    command = commands.add_parser("carry", help="transfer a path taught on the nominal model to the as-built one")
     command.add_argument("nominal", type=Path, metavar="NOMINAL", help="the model that the path was taught on")
     command.add_argument("as_built", type=Path, metavar="AS_BUILT", help="the model that register made of it")
     command.add_argument("path", type=Path, metavar="PATH",

@@ -45,7 +45,7 @@ class Wanted:
 def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line's parser."""
     command = commands.add_parser("weld",
-                                  help="all in one: scan, as-built model, seams, robot programs, and a page on it")
+                                  help="all in one: scan, as-built model, seams, robot programs, and a page about it")
     add_inputs(command)
     add_registration(command)
     seam_options.add_options(command)

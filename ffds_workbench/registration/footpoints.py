@@ -15,9 +15,9 @@ from .uv_raster import Raster
 
 Index = NDArray[np.intp]
 Located = tuple[Array, Array, Array, NDArray[np.bool_]]
-"""Cell coordinates x and y, height in mm, and whether they are to be trusted."""
+"""Cell coordinates x and y, height in mm, and whether they can be trusted."""
 Locator = Callable[[Array], tuple]
-"""(3, n) points to the rows it kept (None for all), and what it `Located` for them."""
+"""Maps points (3, n) to the rows that were kept (None for all) and the `Located` of these."""
 
 _CHUNK = 16384
 """Points that are located together (unit: memory of a processor's cache)."""
@@ -109,7 +109,7 @@ def surface_coordinates(raster: Raster, points: Array, reach: float, margin: flo
     in the quadratic frames of the cells, the last one in the cell it ends in: the height is right to third order of the
     cell size.
     """
-    x, y, height = np.empty((3, len(points)))      # touched, and so taken, no farther than points are found
+    x, y, height = np.empty((3, len(points)))      # pages are allocated only as far as points are found
     found = SurfaceCoordinates(np.empty(len(points), dtype=np.intp), x, y, height, raster.shape)
     count = 0
     for some in located(raster, points, reach, make_locator(raster, reach)):

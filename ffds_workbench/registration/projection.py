@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Closest points on a spline surface, or on one with a displacement, to rounding: where the last digit counts.
+"""Closest points on a spline surface, with or without a displacement, exact to rounding.
 
-For registration itself `footpoints` is fast and exact enough.
+Registration itself uses `footpoints`, which are faster and exact enough.
 """
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a registration is asked for, beside the model and the scan. Loads no mathematics: the command line starts fast.
+"""The settings of a registration, besides the model and the scan. Loads no mathematics: the command line starts fast.
 
 The command line, `api.register`, the document object and the live preview all pass on the same request, and it is
-checked here, once. What only a model can tell, whether it has a Face9, is checked where the two meet.
+checked here, once. What depends on the model, such as whether it has a Face9, is checked where the two meet.
 """
 from __future__ import annotations
 
@@ -46,8 +46,7 @@ class RegistrationRequest:
         scan more closely
     gate : of "robust": scan points farther than this from the as-built surface are outliers, in mm, though never nearer
         than the noise asks for; None for the default
-    sensor : of the whole part: tells noise that neighbouring points share from shape, so that bands are honest. None:
-        white noise
+    sensor : of the whole part: separates correlated noise from shape, so that bands are honest. None: white noise
     align : the scan is brought onto the model first: "none", "fine" from where it lies, "global" from anywhere
 
     Raises

@@ -19,7 +19,7 @@ def inside_trims(face: FaceGeometry, u: Array, v: Array) -> NDArray[np.bool_]:
 
     Parameters
     ----------
-    u, v : increasing parameters in the face's range; a node on the very side of the range counts as just inside it
+    u, v : increasing parameters in the face's range; a node exactly on the border of the range counts as just inside it
 
     Notes
     -----

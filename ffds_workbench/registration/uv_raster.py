@@ -67,7 +67,7 @@ class Raster:
 
     @cached_property
     def table(self) -> Array:
-        """What a foot point needs of its cell, one row each, (20, m·n): position, principal directions, normal,
+        """What the foot points of a cell need, one column per cell, (20, m·n): position, principal directions, normal,
         curvatures, steps in cells per mm along the principal directions (x by 1, x by 2, y by 1, y by 2), the centre's
         x and y."""
         gram = np.stack([dot(self.tangent_u, self.tangent_u), dot(self.tangent_u, self.tangent_v),

@@ -90,6 +90,6 @@ def certify_file(nominal: Part.Shape, before: Condition, back: ReadBack) -> File
     lacks = bool(own.empty or own.open_edges)
     result = FileCertificate(back, before, condition(back.shape), (mesh(nominal.copy()) if lacks else None, own))
     if result.lost:
-        raise RefusedError(f"The {back.suffix} file does not hold the model whole and was not kept: "
+        raise RefusedError(f"The {back.suffix} file does not contain the complete model and was not kept: "
                            + " ".join(result.lost))
     return result

@@ -31,7 +31,7 @@ def _row(name: str, points: str, figures: Sequence[str]) -> str:
 def doubts(report: Mapping[str, Any]) -> str:
     """What a registration could not tell, a sentence each; empty if there is nothing."""
     sheet = report["sheet"]
-    free = [f"{motion}: no scan tells how far it did, and it stays where it was." for motion in sheet["free_motions"]]
+    free = [f"{motion} without any scan showing it, so it stays where it was." for motion in sheet["free_motions"]]
     torn = [f"{name} fits its scan points in more than one place: it is carried by its neighbours, not registered."
             for name in sheet["torn"]]
     loose = [f"{name} bounds no face: it stays where it was." for name in sheet["loose"]]
@@ -40,7 +40,7 @@ def doubts(report: Mapping[str, Any]) -> str:
 
 def _skin_doubt(unsure: float) -> str:
     return (f"Which skin of the sheet the scan shows is a guess: everything may be off by its thickness, {unsure:.2f} "
-            f"mm, and the bands say so. Scan some of its border as well, or use a scan with normals.")
+            f"mm, and the bands allow for that. Scan some of its border as well, or use a scan with normals.")
 
 
 def topology_table(topology: Mapping[str, Any]) -> str:

@@ -79,5 +79,5 @@ def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
     if len(points) == 1:
         raise InputError(f"The scan {path} holds a single point: a scan needs many.")
     if not np.ptp(points, axis=0).any():
-        raise InputError(f"The scan {path} is no scan: all its {len(points)} points are the same.")
+        raise InputError(f"The scan {path} is not a scan: all its {len(points)} points are the same.")
     return PointCloud(points, dropped, normals=unit_normals(rows[finite, 3:]) if rows.shape[1] > 3 else None)

@@ -2,7 +2,16 @@
 # Sourced by setup.sh and test.sh: which Debian packages are needed, and how they are installed.
 
 run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed"
-test_packages="python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth python3-pyside2.qttest"
+test_packages="python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth"
+
+# The package that tests windows, of the Qt that FreeCAD is built with: 5 in Debian 12 and 13, 6 later.
+qt_test_package() {
+    if dpkg-query -W python3-pyside6.qtcore >/dev/null 2>&1; then
+        echo python3-pyside6.qttest
+    else
+        echo python3-pyside2.qttest
+    fi
+}
 
 # Install those of the named packages that are missing; nothing is touched if none is.
 install_packages() {

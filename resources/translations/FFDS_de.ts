@@ -1281,7 +1281,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>: {0}</translation>
     </message>
     <message>
-      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them, or take as nominal model a STEP file that FreeCAD has exported of it.</source>
+      <source>A STEP file cannot keep the numbers of this model's edges: they go round {0} in another order than they are numbered. Write .brep or .FCStd, which keep them, or use a STEP file that FreeCAD has exported from it as the nominal model.</source>
       <translation>Eine STEP-Datei kann die Nummern der Kanten dieses Modells nicht behalten: Sie laufen um {0} in anderer Reihenfolge, als sie nummeriert sind. Schreiben Sie .brep oder .FCStd, die sie behalten, oder nehmen Sie als Sollteil eine STEP-Datei, die FreeCAD davon exportiert hat.</translation>
     </message>
     <message>
@@ -1345,12 +1345,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Eine Kante von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Kanten eines Teils.</translation>
     </message>
     <message>
-      <source>Beyond their limits, and in the programs all the same: {0}.</source>
-      <translation>Außerhalb ihrer Grenzen und trotzdem in den Programmen: {0}.</translation>
+      <source>Beyond their limits, and therefore left out of the programs: {0}.</source>
+      <translation>Außerhalb ihrer Grenzen und deshalb in keinem Programm: {0}.</translation>
     </message>
     <message>
-      <source>Beyond their limits, and therefore in no program: {0}.</source>
-      <translation>Außerhalb ihrer Grenzen und deshalb in keinem Programm: {0}.</translation>
+      <source>Beyond their limits, but included in the programs: {0}.</source>
+      <translation>Außerhalb ihrer Grenzen und trotzdem in den Programmen: {0}.</translation>
     </message>
     <message>
       <source>Carrying the faces around along</source>
@@ -1789,7 +1789,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
-      <source>The registration did not converge (the last step was {0} mm): the scan does not hold the part; align it first, or freeze faces.</source>
+      <source>The registration did not converge (the last step was {0} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
       <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
@@ -1925,12 +1925,12 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan {0} ist beschädigt oder abgeschnitten: Seine Punkte können nicht gelesen werden.</translation>
     </message>
     <message>
-      <source>The scan {0} is damaged or no text of points: line {1} has fewer than {2} values.</source>
-      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: Zeile {1} hat weniger als {2} Werte.</translation>
+      <source>The scan {0} is damaged or not a text file of points: line {1} has '{2}' instead of a number.</source>
+      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: In Zeile {1} steht „{2}“, wo eine Zahl hingehört.</translation>
     </message>
     <message>
-      <source>The scan {0} is damaged or no text of points: line {1} holds '{2}' where a number belongs.</source>
-      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: In Zeile {1} steht „{2}“, wo eine Zahl hingehört.</translation>
+      <source>The scan {0} is damaged or not a text file of points: line {1} has fewer than {2} values.</source>
+      <translation>Der Scan {0} ist beschädigt oder kein Text mit Punkten: Zeile {1} hat weniger als {2} Werte.</translation>
     </message>
     <message>
       <source>The scan {0} is damaged: a corner is not made of three numbers.</source>
@@ -1969,14 +1969,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan {0} ist leer.</translation>
     </message>
     <message>
-      <source>The scan {0} is no scan: all its {1} points are the same.</source>
-      <translation>Der Scan {0} ist kein Scan: Alle seine {1} Punkte sind gleich.</translation>
-    </message>
-    <message>
-      <source>The scan {0} is no text of points: no line starts with a number.</source>
-      <translation>Der Scan {0} ist kein Text mit Punkten: Keine Zeile beginnt mit einer Zahl.</translation>
-    </message>
-    <message>
       <source>The scan {0} is not a PCD file, or its header is cut off.</source>
       <translation>Der Scan {0} ist keine PCD-Datei, oder sein Kopf ist abgeschnitten.</translation>
     </message>
@@ -1985,8 +1977,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan {0} ist keine PLY-Datei, oder sein Kopf ist abgeschnitten.</translation>
     </message>
     <message>
-      <source>The scan {0} is not a text of points: it holds binary data.</source>
+      <source>The scan {0} is not a scan: all its {1} points are the same.</source>
+      <translation>Der Scan {0} ist kein Scan: Alle seine {1} Punkte sind gleich.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not a text file of points: it contains binary data.</source>
       <translation>Der Scan {0} ist kein Text mit Punkten: Er enthält binäre Daten.</translation>
+    </message>
+    <message>
+      <source>The scan {0} is not a text file of points: no line starts with a number.</source>
+      <translation>Der Scan {0} ist kein Text mit Punkten: Keine Zeile beginnt mit einer Zahl.</translation>
     </message>
     <message>
       <source>The scan {0} is not an E57 file.</source>
@@ -2089,7 +2089,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Ansichten sehen nichts vom Teil: Richten Sie sie darauf.</translation>
     </message>
     <message>
-      <source>The {0} file does not hold the model whole and was not kept: {1}</source>
+      <source>The {0} file does not contain the complete model and was not kept: {1}</source>
       <translation>Die {0}-Datei enthält das Modell nicht ganz und wurde nicht behalten: {1}</translation>
     </message>
     <message>
@@ -2165,7 +2165,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
     </message>
     <message>
-      <source>a body of revolution about the axis ({0}, {1}, {2}), the same end for end</source>
+      <source>a body of revolution about the axis ({0}, {1}, {2}), symmetric end for end</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2}), an beiden Enden gleich</translation>
     </message>
     <message>
@@ -2241,7 +2241,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>gleich nach einer Drehung von {0}</translation>
     </message>
     <message>
-      <source>the scan fits in several poses alike</source>
+      <source>the scan fits equally well in several poses</source>
       <translation>der Scan passt in mehreren Lagen gleich gut</translation>
     </message>
     <message>

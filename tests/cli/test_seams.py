@@ -44,7 +44,7 @@ def test_everything_in_one_command(ffds, tmp_path, models):
                 "--limit", "gap=0.1", "--out", *names, "--report", "seams.json", "--picture", "seams.png",
                 "--keep-failing")
     assert done.returncode == 0, done.stderr
-    assert "fail: gap" in done.stdout and "in the programs all the same" in done.stdout
+    assert "fail: gap" in done.stdout and "but included in the programs" in done.stdout
     text = (tmp_path / "weld.csv").read_text()
     assert text.startswith(HEAD)
     table = rows(tmp_path / "weld.csv")

@@ -199,7 +199,7 @@ def test_programs_hold_the_seams_within_their_limits_unless_all_are_asked_for(to
     assert points[1:-1, 2] == pytest.approx(0.0, abs=1e-3)
     assert {row["seam"] for row in csv.DictReader((tmp_path / "a.csv").open())} == {"1", "2"}
     notes = write_seams(plan, [tmp_path / "all.src"], RobotSettings(keep_failing=True))
-    assert notes[0] == f"Beyond their limits, and in the programs all the same: {edges[1]} (lateral, normal)."
+    assert notes[0] == f"Beyond their limits, but included in the programs: {edges[1]} (lateral, normal)."
     assert len(read_krl(*((tmp_path / f"all.{kind}").read_text() for kind in ("src", "dat")))) > len(points)
     none = plan_seams(built, edges[1:], nominal=nominal)
     with pytest.raises(RefusedError, match="no program was written"):

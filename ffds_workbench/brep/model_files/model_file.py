@@ -127,8 +127,8 @@ def check_numbers(nominal: Model, path: Path) -> None:
     if faces:
         names = listed([f"Face{face + 1}" for face in faces])
         raise RefusedError(f"A STEP file cannot keep the numbers of this model's edges: they go round {names} in "
-                           f"another order than they are numbered. Write .brep or .FCStd, which keep them, or take as "
-                           f"nominal model a STEP file that FreeCAD has exported of it.")
+                           f"another order than they are numbered. Write .brep or .FCStd, which keep them, or use a "
+                           f"STEP file that FreeCAD has exported from it as the nominal model.")
 
 
 def write(model: Model, path: Path) -> ReadBack:

@@ -16,6 +16,7 @@ from typing import cast
 import numpy as np
 import Part
 
+from ... import compat
 from ...registration.arrays import Array
 from ..occt_text.curves import read_curve
 from ..occt_text.instances import Instance, Locations, composed, product, walk
@@ -198,8 +199,8 @@ class _Arrangement:
             turned = begun(loop, met, self._degenerated)
             if turned is None:
                 return None
-            # Of a face that closes on itself both ways readers turn the list round, not the loop.
-            result.append(turned[1:] + turned[:1] if self._is_ring(loop) else turned)
+            turned_back = compat.turns_rings() and self._is_ring(loop)
+            result.append(turned[1:] + turned[:1] if turned_back else turned)
             met.update(use.edge for use in loop)
         return result
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The control lattice of a displacement field on a face: its knots, and which of its control points are free.
 
-On a closed direction the lattice is periodic; opposite sides that are one curve in space, and the row at a pole, move
-as one. So a displacement never tears a face apart.
+In a closed direction the lattice is periodic; opposite sides that are one curve in space, and the row at a pole, share
+their control points, so that a displacement never tears a face apart.
 """
 from __future__ import annotations
 

@@ -26,13 +26,13 @@ reaches farther)."""
 def far_side(face: FaceGeometry, registration: FaceRegistration, others: Iterable[FaceGeometry]) -> tuple[str, float]:
     """The face that the scan may show instead of a registered one, and how many times nearer to the scan it is.
 
-    A sheet that moved by its own thickness lies on its far side as well, so this is a suspicion, not a verdict.
+    A sheet that moved by its own thickness also lies on its far side, so this is a suspicion, not a verdict.
 
     Parameters
     ----------
     face : the nominal face
     registration : its displacement
-    others : the nominal faces that may have been mistaken for it; those that face the same way never are
+    others : the nominal faces that may have been mistaken for it; those with the same normals are ignored
 
     Returns
     -------

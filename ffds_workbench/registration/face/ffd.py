@@ -2,8 +2,8 @@
 """Method ``ffd-hsu``: free-form deformation with a lattice of control points in space, manipulated directly.
 
 Sederberg and Parry: Free-Form Deformation of Solid Geometric Models (1986); Hsu, Hughes and Kaufman: Direct
-Manipulation of Free-Form Deformations (1992). It is what the surface-based method is compared with: Eq. 1 of the paper
-in place of Eq. 2, the same pseudo-inverse (Eq. 4). Lengths in mm.
+Manipulation of Free-Form Deformations (1992). The surface-based method is compared with it: Eq. 1 of the paper in place
+of Eq. 2, with the same pseudo-inverse (Eq. 4). Lengths in mm.
 """
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def register_ffd(face: FaceGeometry, scan: Array, lattice: tuple[int, int] = (10
     Returns
     -------
     FaceRegistration
-        The deformation told in the face's own (u, v), to 1e-3 mm, so that it serves like any other method's.
+        The deformation as a displacement over the face's own (u, v), to 1e-3 mm, as from any other method.
 
     Raises
     ------

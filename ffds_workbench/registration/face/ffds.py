@@ -52,8 +52,8 @@ def register_ffds(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | No
         determine
     source_points : number of points of the equidistant grid on the face, rounded to a square; those in holes drop out
     reach : mm; the share of source points with a neighbour nearer than this is the coverage
-    overshoot : how many times as far as the source points control points may move; infinity takes what the paper's
-        algorithm gives
+    overshoot : largest displacement of control points over that of source points; infinity accepts whatever the
+        paper's algorithm gives
 
     Raises
     ------
@@ -128,7 +128,7 @@ def lattice_basis(control: ControlLattice, u: Array, v: Array) -> Array:
 
 
 def pseudo_inverse(matrix: Array) -> Array:
-    """Moore–Penrose inverse; directions that the source points hardly see are left at rest."""
+    """Moore–Penrose inverse; directions that the source points hardly determine are left at rest."""
     return np.asarray(np.linalg.pinv(matrix, rcond=SMALLEST_SINGULAR_VALUE))
 
 
@@ -167,7 +167,8 @@ def along_normal(face: FaceGeometry, u: Array, v: Array, on_face: NDArray[np.boo
 
 def _check_determined(face: FaceGeometry, control: ControlLattice, control_points: Array, moves: Array,
                       overshoot: float) -> None:
-    """Control points that go much farther than any source point hang over holes, held by hardly anything."""
+    """Refuse a lattice some of whose control points move much farther than any source point: over holes, hardly
+    anything determines them."""
     farthest, asked = (float(np.linalg.norm(points, axis=1).max()) for points in (control_points, moves))
     if farthest > overshoot * asked:
         rows, columns = control.unknown.shape

@@ -31,7 +31,7 @@ _RASTER_CELLS = 1024
 
 @dataclass(frozen=True)
 class _FaceCandidate:
-    """A face, and the layers of the sampled scan points that lie over it and face its way.
+    """A face, and the layers of the sampled scan points that lie over it and have its normals.
 
     Attributes
     ----------
@@ -70,10 +70,10 @@ def observed_faces(faces: Sequence[FaceGeometry], scan: Array, reach: float = RE
 
     Notes
     -----
-    Along the normals of a face the points that face its way form layers, block by block. Each point belongs to the
-    nearest face, each layer to the one that owns most of its points. The face with the least of its area under layers
-    of its own is given up and its points go to the next nearest, until all faces left are covered: so the skin of a
-    sheet that moved inwards by more than half the thickness is not taken for the other skin.
+    Along the normals of a face, the points with matching normals form layers, block by block. Each point belongs to the
+    nearest face, each layer to the face that owns most of its points. The face with the smallest share of its area
+    under its own layers is dropped and its points go to the next nearest, until all remaining faces are covered. So the
+    skin of a sheet that moved inwards by more than half the thickness is not mistaken for the other skin.
     """
     if len(scan) > _SAMPLE_SIZE:
         scan = scan[np.random.default_rng(0).choice(len(scan), _SAMPLE_SIZE, replace=False)]

@@ -3,8 +3,8 @@
 
 Scan points are expressed once as foot point and height over the nominal face. From then on every step works on the
 raster: the residuals of each cell's points are averaged with Tukey weights, and the control lattice takes the
-displacement that explains the cells at the least bending energy. Trust is earned in order: the stiffer the field, the
-wider the gate.
+displacement that explains the cells with the least bending energy. Trust is earned step by step: the stiffer the field,
+the wider the gate.
 """
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def register_robust(face: FaceGeometry, scan: Array, lattice: tuple[int, int] | 
     _check_lattice(face, fit, points, lattice is None)
     state, noise, gate = fit.moved(rigid_start(raster, layers)), layers.noise, settings.reach
     trust = trust_all(layers)
-    for stage in settings.schedule:                                               # trust is earned in order:
+    for stage in settings.schedule:                                               # trust is earned step by step:
         begins = stage.trusts != trust.name
-        if begins and stage.trusts == MAIN_PATCHES:                               # in what hangs together,
+        if begins and stage.trusts == MAIN_PATCHES:                               # in connected layers,
             trust = trust_main_patches(raster, layers, *fit.look(state, layers, gate))
         elif begins:                                                              # then in what lies on its surface
             residual, weights = fit.look(state, layers, gate)

@@ -90,7 +90,7 @@ class JointRegistration:
     Attributes
     ----------
     displacements : d(u, v) of every face in FreeCAD's order, in mm over the face's own (u, v)
-    assess : finds the bands and the flags of faces and edges; the shape stands without them
+    assess : computes the bands and flags of faces and edges, which the shape does not need
     solids : rigid motion of each solid of the part
     thickness : as-built mean thickness in mm of each solid that is a sheet, else None
     strain : rms strain of the mid surface that was found on observed faces
@@ -98,9 +98,9 @@ class JointRegistration:
     iterations : Gauss-Newton steps
     last_step : largest change of a surface point in mm in the last step
     used : number of scan points that carry weight
-    unsure : thickness in mm of a sheet of which the scan may show the other skin, contained in the bands; mostly 0
-    torn : names of small faces that did not come to rest on their scan points and are carried by their neighbours
-    free_motions : along which solids slide in themselves and stay where they were, one phrase each
+    unsure : thickness in mm of a sheet of which the scan may show the other skin, included in the bands; usually 0
+    torn : names of small faces that did not settle on their scan points; their neighbours carry them
+    free_motions : in which solids move within their own surface, and so stay where they were, one phrase each
     """
 
     displacements: tuple[SplineSurface, ...]

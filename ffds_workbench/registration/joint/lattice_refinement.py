@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Finer lattices where the data ask for them: where the residuals of the cells are larger than the noise explains."""
+"""Finer lattices where the data require them: where the residuals of the cells are larger than the noise explains."""
 from __future__ import annotations
 
 from dataclasses import replace

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The lengths of one solve, found once: everything that has a unit of length and is no property of the shape."""
+"""The lengths of one solve, computed once: everything with a unit of length that is not a property of the shape."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A joint solve that is kept warm: coarse lattices, few points, and one step when a setting changes. For previews."""
+"""A joint solve for previews: coarse lattices, few points, and one step from the last state when a setting changes."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -48,7 +48,7 @@ class LiveJoint:
         self._isometry = settings.isometry
 
     def step(self, settings: JointSettings) -> list[SplineSurface]:
-        """Displacements of all faces, d(u, v) in mm, one step nearer to what these weights and gates ask for."""
+        """Displacements of all faces, d(u, v) in mm, one step further with these weights and gates."""
         problem = replace(self._problem, settings=_coarse(settings))
         steps = settings.stages(problem.lengths)
         stage = replace([stage for stage in steps if not stage.all_points][-1], gate=steps[-1].gate)
@@ -65,7 +65,7 @@ def _coarse(settings: JointSettings) -> JointSettings:
 
 
 def _steps(problem: Problem, stage: Stage, state: State, most: int) -> State:
-    """Gauss-Newton steps, without the pull of visible borders: it changes little here and takes half of the time."""
+    """Gauss-Newton steps without visible borders, which change little here and take half of the time."""
     state = replace(state, cache=replace(state.cache, points=replace(state.cache.points, nearest=None)))
     for _ in range(most):
         state = gauss_newton_step(problem, replace(stage, soft=False), state)

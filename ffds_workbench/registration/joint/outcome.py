@@ -36,7 +36,7 @@ _LEAST_JUDGED_POINTS, _LEAST_JUDGED_COVER = 50, 0.3
 
 
 def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
-    """Small faces that still wander while the scan holds the part: they are torn between two places in it."""
+    """Small faces that keep moving while the rest of the part has settled: they fit the scan in two places."""
     if state.face_steps is None or state.last_step <= problem.lengths.not_converged:
         return ()
     wandering = state.face_steps > _TORN_STEP * state.last_step
@@ -46,7 +46,7 @@ def torn_faces(problem: Problem, state: State) -> tuple[int, ...]:
 
 
 def refuse_unsound(problem: Problem, state: State) -> None:
-    """Raise RefusedError where the result cannot be honest."""
+    """Raise RefusedError where the result cannot be trusted."""
     inside = problem.cells.inside
     position = problem.cells.nominal.position[inside]
     jet = problem.cells.displaced(problem.lattices, state.control_points, 3)
@@ -65,7 +65,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
                            "align the scan first.")
     if state.last_step > problem.lengths.not_converged:
         raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
-                           "does not hold the part; align it first, or freeze faces.")
+                           "does not constrain the part; align it first, or freeze faces.")
     _refuse_off_scan(problem, state)
     normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)
@@ -78,7 +78,7 @@ def refuse_unsound(problem: Problem, state: State) -> None:
 
 
 def _refuse_off_scan(problem: Problem, state: State) -> None:
-    """Raise RefusedError where a face is covered by scan points and lies far off them: they were not followed."""
+    """Raise RefusedError where scan points cover a face that lies far off them."""
     noise = problem.lengths.noise
     before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), problem.lengths.reach).height))
     found = _all_matched(problem, state.control_points, problem.lengths.reach)
@@ -122,7 +122,7 @@ def _solid_motion(problem: Problem, position: Array, solid: Index) -> SolidMotio
 
 
 def summarise(problem: Problem, state: State) -> JointRegistration:
-    """The result; its bands and flags are found when they are asked for."""
+    """The result; its bands and flags are computed at first use."""
     position = problem.cells.displaced(problem.lattices, state.control_points, 1).position
     displacements = tuple(problem.lattices.spline(index, state.control_points)
                           for index in range(len(problem.part.faces)))

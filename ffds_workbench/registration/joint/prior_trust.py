@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far each prior is trusted: a part that visibly stretched, sheared or bent more than expected is held less.
+"""How much each prior is trusted: less if the part visibly stretched, sheared or bent more than expected.
 
-Every prior is a sum of squares in chi-square units. What the scan makes the solve pay for it is to be about the number
-of shapes that the scan tells of it (MacKay, Neural Computation 4, 1992, eq. 4.8): a prior that costs more is too tight.
+Every prior is a sum of squares in chi-square units. At the solution its cost should be about the number of parameters
+that the scan determines against it (MacKay, Neural Computation 4, 1992, eq. 4.8): a prior that costs more is too tight.
 """
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ _OBSERVED_SHARE = 0.3
 def update_prior_trust(problem: Problem, state: State, stage: Stage) -> State:
     """The state with its trust in the priors renewed; until the soft stages all are trusted.
 
-    A prior that is much trusted forces the shape to comply and then costs little. So the first soft stage allows some
-    of them less than is expected, and trust is won back from there. Where the body counts, it stays.
+    A prior with full trust forces the shape to comply and then costs little. So the first soft stage expects less of
+    some of them, and trust is regained from there. In the stage with the body field it stays.
     """
     if stage.body:
         return state

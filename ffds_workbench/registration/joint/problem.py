@@ -55,7 +55,7 @@ class Problem:
     constant : rows that are the same at every shape
     sides : where the faces lie at their edges
     lengths : of the solve
-    free_motions : of solids in themselves, of which no scan tells
+    free_motions : of solids within their own surface
     margin : (spans,) distance from the border that scan points must keep, in mm
     body_size : (spans,) size in mm of the solid that a span belongs to
     cell_side : usual length in mm of the sides of the cells

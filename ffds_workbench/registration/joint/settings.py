@@ -19,12 +19,12 @@ class Stage:
     bending : multiplies the bending weight
     gate : scan points farther than this from the model are left out, over the reach; in mm of `JointSettings.stages`
     iterations : most Gauss-Newton steps
-    enough : the stage is over when no point moves farther in a step, over the gate or, of a soft stage, over the noise;
+    enough : the stage ends when no point moves farther in a step, over the gate or, in a soft stage, over the noise;
         in mm of `JointSettings.stages`
     soft : the shape can be trusted: strain is judged, and visible borders pull the edges
     all_points : every scan point with Tukey weights per cell, instead of a sample with medians
-    body : what the body tells of its faces counts as well, and the priors keep the trust that they have
-    allowance : multiplies what the priors, save thickness and sliding, may cost before they are trusted less
+    body : the body field counts as well, and the priors keep the trust that they have
+    allowance : multiplies the expected cost of the priors other than thickness and sliding
     """
 
     bending: float
@@ -50,12 +50,12 @@ _USUAL_REACH = 0.025
 class SensorProfile:
     """The noise of a sensor along the surface normal; a property of the sensor, measured once on a flat datum.
 
-    A single scan of a curved part cannot tell noise that neighbouring points share from shape.
+    A single scan of a curved part cannot separate correlated noise from shape.
 
     Attributes
     ----------
     sigma : white noise in mm, or None to take it from the scan
-    sigma_c : correlated noise in mm: what neighbouring points share
+    sigma_c : correlated noise in mm, which neighbouring points share
     correlation_length : in mm: the correlation falls as exp(−r²/2l²)
     name : of the sensor
     """
@@ -73,8 +73,8 @@ class SensorProfile:
 
 @dataclass(frozen=True)
 class JointSettings:
-    """How the joint solve is to work; no default has a unit of length but that of the curvature, whose product with
-    its length has none.
+    """How the joint solve works; no default has a unit of length except the curvature and its length, whose product is
+    dimensionless.
 
     Attributes
     ----------

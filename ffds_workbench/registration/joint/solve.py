@@ -2,8 +2,8 @@
 """The joint solve: scan points pull the displacement lattices of all faces of a part at once.
 
 One least-squares problem in chi-square units: every row is divided by its own standard deviation. The paper's steps
-3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned
-in order.
+3 to 5 (closest points, Eq. 4, apply) run as Gauss-Newton iterations, stiff first and soft later: trust is earned step
+by step.
 """
 from __future__ import annotations
 
@@ -48,8 +48,8 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     scan : (n, 3) points in mm, in the frame of the part
     settings : weights and schedule; the defaults suit parts of any size
     progress : called as ``progress("stage", fraction)``
-    scan_normals : (n, 3) unit normals that the scan brings, zero where it has none; they tell the skins of thin sheets
-        apart, and are left aside where they contradict each other or the part
+    scan_normals : (n, 3) unit normals of the scan, zero where it has none; they distinguish the skins of thin sheets,
+        and are ignored where they contradict each other or the part
 
     Raises
     ------
@@ -106,7 +106,7 @@ def _run_soft_stages(problem: Problem, steps: tuple[Stage, ...], state: State, r
 
 
 def _run_soft_stage(problem: Problem, stage: Stage, state: State) -> State:
-    """A soft stage. A sheet that can follow the scan without stretching is taken not to have stretched."""
+    """A soft stage. A sheet that can follow the scan without stretching is assumed not to have stretched."""
     if stage.allowance < 1.0 and problem.skin.any():
         unstretched = run_stage(problem, replace(stage, allowance=1.0), state, may_be_isometric)
         if is_isometric(unstretched):

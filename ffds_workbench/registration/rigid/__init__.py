@@ -4,8 +4,8 @@
 ``align(target_of(faces), scan, mode)`` is the whole of it; ``align.py`` reads top to bottom as the algorithm, whose
 quick and thorough ways are `settings` (how far it looks: `search_settings`). ``model/`` is the nominal part,
 ``search/`` proposes poses, ``refine/`` improves one, ``deformation/`` allows the part to have deformed. A `hypothesis`
-is a refined pose with its `evidence`; `polish` has the last word on its numbers, `verdict` (with `symmetry`) on whether
-it is the answer.
+is a refined pose with its `evidence`; `polish` refines it for the last time, and `verdict` (with `symmetry`) decides
+whether it is the answer.
 """
 from .align import align
 from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose

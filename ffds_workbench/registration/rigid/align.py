@@ -26,18 +26,18 @@ def align(target: Target, scan: Array, mode: str = "global", scales: Sequence[fl
     Parameters
     ----------
     target : the model, see ``target_of``, and with it the settings
-    scan : (n, 3) in mm, or in a unit that is to be recognised
-    mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" looks close around the
-        present pose, and of poses that fit alike takes the nearest
+    scan : (n, 3) in mm, or in another unit, which is recognised
+    mode : "fine" starts from the present pose and its centroid, "global" from anywhere; "local" searches close to the
+        present pose, and takes the nearest of poses that fit equally well
     scales : factors to try on the scan's coordinates; by default those that its size allows
     seed : of the random choice of points
 
     Notes
     -----
     Coarse to fine: hundreds of poses with 120 points each, by Gauss-Newton steps on a look-up table of nearest samples
-    that face the same way; the few dozen that are left with more points; the best dozen against the exact faces, each
-    verified. The best one is polished on thousands of points. A scan that lies nearby is first tried with little
-    effort.
+    that face the same way; the few dozen that remain with more points; the best dozen against the exact faces, each
+    verified. The best one is polished on thousands of points. For a scan that lies nearby a quick search is tried
+    first.
     """
     scales = plausible_scales(scan, target.size, target.settings.units) if scales is None else scales
     answer: Alignment | None = None

@@ -35,7 +35,7 @@ class Alignment:
     verdict : "ok", "ambiguous" (several poses fit alike: see ``poses``) or "failed"
     certainty : what the verdict rests on, see `Evidence.certainty`; 1 is perfect
     confidence : 0…1, how far the pose is from failing and from the next best one
-    poses : the poses that fit alike, the chosen one first
+    poses : the poses that fit equally well, the chosen one first
     reach : distance in mm within which a point counts as on the part
     fitness : share of the scan, table left out, within ``reach`` of the part
     rmse : root mean square distance of those points from the part in mm
@@ -43,7 +43,7 @@ class Alignment:
     coverage : share of the part's visible surface that the scan shows
     symmetry : the part's own symmetry in words, or empty
     scale : factor that was applied to the scan's coordinates
-    unit : what that factor is called: "m" if the scan was read as mm but is in metres
+    unit : name of that factor: "m" if the scan was read as mm but is in metres
     table : whether a table plane was found and left out
     reason : one phrase that says why it failed or is ambiguous, or empty
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Does a pose explain the scan, and the scan the part? Judged against the model, whatever proposed the pose."""
+"""Does a pose explain the scan, and the scan the part? Judged against the model, independently of the search."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ _LEAST_EXPLAINED = 12
 
 @dataclass(frozen=True)
 class LooseScan:
-    """A scan that may show the part, and lies nobody knows where.
+    """A scan that may show the part, in an unknown pose.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Evidence:
     misfit : mean distance of the scan from the part after a smooth deformation is allowed for, less the noise, capped
         and as a share of the cap: 0 is perfect, 1 is nothing
     coverage : share of the part's visible surface that the scan shows
-    missing : part that cameras at the inferred views ought to have seen and did not, as a share of what they saw
+    missing : area that cameras at the inferred views should have seen and did not, as a share of what they saw
     pierced : share of the part that would lie behind the table
     bent : root mean square of the smooth deformation, as a share of the part's size
     score : rank among poses, larger is better, 1 is perfect
@@ -75,7 +75,7 @@ class Evidence:
 
     @property
     def certainty(self) -> float:
-        """Mean of the score and of what is explained, 1 is perfect: what tells the part from another one."""
+        """Mean of the score and of the share explained, 1 is perfect: it distinguishes the part from other ones."""
         return 0.5 * (self.score + self.explained)
 
 

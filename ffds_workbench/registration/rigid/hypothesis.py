@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A pose refined against the side of the part that the scan shows, with what speaks for it."""
+"""A pose refined against the side of the part that the scan shows, with the evidence for it."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -50,7 +50,7 @@ class Hypothesis:
 
     @cached_property
     def misfit(self) -> float:
-        """The evidence's misfit alone, which is told faster."""
+        """The evidence's misfit alone, which is faster to compute."""
         return misfit_of(self.scan, self.normals, self.match)
 
     def normals_of(self, sketch: Sketch, pose: Array) -> Array:
@@ -78,7 +78,7 @@ def refined(scan: LooseScan, pose: Array, signs: Array, rung: Rung, effort: Effo
 
 
 def matched_on(known: Hypothesis, rung: Rung) -> Hypothesis:
-    """The ``known`` hypothesis, its deformation led on in the rounds of a ``rung``."""
+    """The ``known`` hypothesis, its deformation continued in the rounds of a ``rung``."""
     match, deformation = match_scan(known.scan, known.pose, known.normals, rung.rounds, known.deformation)
     return replace(known, match=match, deformation=deformation)
 
@@ -114,7 +114,7 @@ def _without_stray_normals(scan: LooseScan, pose: Array, normals: Array, steps: 
     flipped = np.where(turned[:, None], -normals, normals)
     closer = refine(target, scan.sketch.points, pose, (_SECOND_GATE * target.size,), steps, flipped @ pose[:3, :3])
     flipped = flipped @ pose[:3, :3] @ closer[:3, :3].T
-    # of a deformed sheet some points lie nearer to the far side
+    # some points of a deformed sheet lie nearer to its far side
     return (pose, normals) if is_deformed(target, scan.sketch, closer, flipped) else (closer, flipped)
 
 
@@ -142,7 +142,7 @@ def is_good(evidence: Evidence, target: Target) -> bool:
 
 
 def promising(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
-    """Poses that may turn out the best, the best first; each but once."""
+    """Poses that may turn out to be the best, the best first, without duplicates."""
     target = hypotheses[0].scan.target
     settings, best = target.settings.verdict, max(one.evidence.score for one in hypotheses)
     kept: list[Hypothesis] = []

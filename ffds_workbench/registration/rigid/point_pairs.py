@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The rigid pose that a few picked pairs of points ask for: where an alignment may start."""
+"""The rigid pose from a few picked pairs of points, from which an alignment can start."""
 from __future__ import annotations
 
 import numpy as np

@@ -22,9 +22,9 @@ def polish(target: Target, sketch: Sketch, pose: Array, normals: Array,
            deformation: DisplacementField | None = None) -> tuple[Array, DisplacementField | None]:
     """Refines a pose on thousands of points.
 
-    A part that is not deformed lies on its faces, and ends at its rims. Of a deformed one the pose is wanted that fits
-    all of it best, not where it deformed least: wide gates, and each point against the side that it shows. Where the
-    noise is large the side is a guess, and gross errors reach far: no normals then, and a closer gate.
+    A part that is not deformed lies on its faces, and ends at its rims. For a deformed one the pose is the one that
+    fits all of it best, not the part that deformed least: wide gates, and each point against the side that it shows. If
+    the noise is large, the side is a guess and gross errors reach far: then no normals are used, and a closer gate.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def _polish_deformed(target: Target, sketch: Sketch, pose: Array, normals: Array
                      deformation: DisplacementField | None) -> tuple[Array, DisplacementField]:
     """The pose that fits the whole of a deformed part best, and the deformation that remains.
 
-    A pose that turns far began at a wrong place, as did the matches: then once more.
+    A large rotation means that the start and its matches were wrong: then this is repeated once.
     """
     settings = target.settings.polish
     reach, noise = settings.gate * target.size, max(sketch.noise, settings.least_noise * target.size)
@@ -102,9 +102,9 @@ def _polish_rigid(target: Target, sketch: Sketch, pose: Array) -> Array:
 def _informative_points(target: Target, points: Array, count: int) -> NDArray[np.intp]:
     """Indices of at most ``count`` points, drawn more densely where the surface around them constrains the pose more.
 
-    Its leverage in the least squares says that: small faces at the ends of a part hold directions that the large ones
-    leave free, and of points drawn evenly hardly any lie on them. The mean over a patch much wider than the noise is
-    taken, as a choice by the own place of a point would prefer those that the noise has moved one way.
+    Their leverage in the least squares measures this: small faces at the ends of a part constrain directions that the
+    large ones leave free, and few evenly drawn points lie on them. It is averaged over a patch much wider than the
+    noise, as a choice by the point's own position would prefer points that noise has moved one way.
 
     Parameters
     ----------

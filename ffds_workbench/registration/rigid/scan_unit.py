@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The unit of a scan.
 
-Which ones it may be in, by its size against the part's (`plausible_scales`, before it is aligned); and whether it is in
-another than the model that it should lie on, by its size and its place (`unit_mismatch`).
+Which units are plausible from its size against the part's (`plausible_scales`, before it is aligned); and whether its
+unit differs from that of the model that it should lie on, by size and position (`unit_mismatch`).
 
-A partial view and one with a table beside the part differ from the part in size as a wrong unit does. So the places
-count first: where the scan lies on the part as it is, nothing is said, unless another unit makes it fill the part.
+A partial view, or a table beside the part, changes the size of the scan just as a wrong unit does. So the position
+counts first: if the scan lies on the part as it is, no other unit is suggested, unless one makes it fill the part.
 """
 from __future__ import annotations
 

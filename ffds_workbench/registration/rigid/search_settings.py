@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far an alignment looks and how long: the quick and the thorough ways of one algorithm, as settings.
+"""How far and how long an alignment searches: the quick and the thorough ways of one algorithm, as settings.
 
 The three words are those of `settings`.
 """
@@ -68,9 +68,9 @@ class Effort:
     both_sides : every pose is tried with either side of the scan's surface
     refine_steps, refine_stride : steps of the refinement of each hypothesis, and stride of its points
     settle_steps : of a second refinement after stray normals were flipped
-    rungs : climbed in turn; where an answer has to be clear, until one is
-    clear : whether an answer has to be clear, or any is taken to the verdict
-    prefers : of poses that fit alike the one with the best "score", the least "turn", or the "nearest"
+    rungs : taken in turn; where the answer has to be clear, until it is
+    clear : whether the answer has to be clear; otherwise any goes to the verdict
+    prefers : of poses that fit equally well, the one with the best "score", the least "turn", or the "nearest"
     look_around : the surroundings of a best pose that is not sure are searched as well
     """
 

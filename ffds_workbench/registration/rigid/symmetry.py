@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Motions that map the nominal part onto itself: a scan cannot tell the poses apart that they connect.
+"""Motions that map the nominal part onto itself: a scan cannot distinguish the poses that they connect.
 
 Every such motion keeps the area centroid and the inertia of the surface, so only turns about the principal axes come
 into question, and where two principal moments agree, turns about the third axis by any angle.
@@ -42,7 +42,7 @@ class Symmetry:
         if self.axis is not None:
             x, y, z = np.round(self.axis, 2) + 0.0
             if self.ends_alike:
-                return f"a body of revolution about the axis ({x:.2f}, {y:.2f}, {z:.2f}), the same end for end"
+                return f"a body of revolution about the axis ({x:.2f}, {y:.2f}, {z:.2f}), symmetric end for end"
             return f"a body of revolution about the axis ({x:.2f}, {y:.2f}, {z:.2f})"
         phrases = [turn_name(Rotation.from_matrix(pose[:3, :3]).as_rotvec(), self.half_turn)
                    for pose in self.motions[self.exact]]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is said of a pose: is it good enough, and does another one fit as well?"""
+"""The verdict on a pose: is it good enough, and does another one fit as well?"""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -49,7 +49,7 @@ def alignment_of(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis]
     if evidence.certainty < settings.least_certainty or evidence.coverage < settings.least_coverage:
         verdict, poses, reason = FAILED, poses[:1], _why_failed(evidence, settings)
     elif len(poses) > 1:
-        verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits in several poses alike"
+        verdict, reason = AMBIGUOUS, symmetry.text() or "the scan fits equally well in several poses"
     sure = float(np.clip((evidence.certainty - settings.least_certainty) / (1.0 - settings.least_certainty), 0.0, 1.0))
     confidence = sure / (len(poses) if verdict == AMBIGUOUS else 1)
     return Alignment(best.pose, verdict, evidence.certainty, confidence, poses, reach, float(near.mean()),
@@ -81,7 +81,7 @@ def _rivals(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis], sym
         pose = motion @ best.pose
         if not is_new(pose):
             continue
-        if symmetry.axis is None:  # "the same" but for small things, which hold the pose where they are right
+        if symmetry.axis is None:  # the same except for small features, which decide the exact pose
             pose = polish(target, scan.sketch, pose, best.normals @ motion[:3, :3].T)[0]
         rivals.append(CandidatePose(pose, score, "symmetry of the part"))
     for other in sorted(hypotheses, key=lambda one: -one.evidence.score):

@@ -20,8 +20,8 @@ def orient_normals(points: Array, normals: Array, neighbours: int = 9) -> tuple[
     """Flip normals so that neighbours agree: clusters of points merge, each with the one it shares most votes with.
 
     A single link may be wrong, above all around the rim of a thin sheet, and a spanning tree of such links then turns
-    half of a scan inside out. Here all links between two clusters are counted together before they merge, so that a
-    wrong one is outvoted by those beside it; the clusters grow as in O. Borůvka's spanning tree (1926).
+    half of a scan inside out. Here all links between two clusters are summed up before they merge, so that those beside
+    it outvote a wrong one; the clusters grow as in O. Borůvka's spanning tree (1926).
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ def scan_normals(points: Array) -> Array:
 
 def plane_normals(offsets: Array) -> Array:
     """Unit normals, their sign unknown, of the planes through neighbourhoods of k points, given as ``offsets``
-    (n, k, 3) from the middle of each; (n, 3). `scan_sketch` has its own, of weighted points and in a tenth of the time.
+    (n, k, 3) from the middle of each; (n, 3). `scan_sketch` has its own version for weighted points, ten times as fast.
     """
     return np.asarray(np.linalg.eigh(offsets.transpose(0, 2, 1) @ offsets)[1][:, :, 0])
 

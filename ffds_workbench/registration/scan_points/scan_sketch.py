@@ -74,7 +74,7 @@ class Sketch:
 
 def sketch_of(scan: Array, generator: np.random.Generator, count: int = _POINT_COUNT, pool_size: int = _POOL_SIZE,
               finer: int = _FINER_FACTOR) -> Sketch:
-    """Even points with normals from a random part of the scan; what stands alone is dropped.
+    """Even points with normals from a random part of the scan; isolated points are dropped.
 
     Parameters
     ----------
@@ -131,10 +131,10 @@ def _first_of_each(cell: NDArray[np.int64]) -> NDArray[np.intp]:
 
 
 def _not_isolated(tree: cKDTree, distance: Array, index: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Which points lie as dense as the scan does in the median, and as dense as their own neighbours do.
+    """Which points lie as densely as the median of the scan, and as densely as their own neighbours.
 
-    The second is the local outlier factor (M. Breunig et al., LOF, 2000) in short: a stray point just above a surface
-    has near neighbours, but those have far nearer ones.
+    The second criterion is a short form of the local outlier factor (M. Breunig et al., LOF, 2000): a stray point just
+    above a surface has near neighbours, but those have far nearer ones.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def _scatter(offset: Array, weight: Array) -> Array:
 def _flattest(scatter: Array) -> Array:
     """Unit eigenvectors (n, 3) of the least eigenvalues of matrices (n, 3, 3), by inverse iteration.
 
-    The inverse is the adjugate but for a factor, and its columns are cross products: a tenth of the time of ``eigh``.
+    The inverse is the adjugate up to a factor, and its columns are cross products: ten times as fast as ``eigh``.
     """
     inverse = np.stack([np.cross(scatter[:, k - 2], scatter[:, k - 1]) for k in range(3)], axis=2)
     longest = np.einsum("nik,nik->nk", inverse, inverse).argmax(axis=1)

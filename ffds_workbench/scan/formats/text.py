@@ -60,7 +60,7 @@ def read(path: Path) -> NDArray[np.float64]:
     data = _text(path)
     beginning = _beginning(data)
     if not beginning.sample:
-        raise InputError(f"The scan {path} is no text of points: no line starts with a number.")
+        raise InputError(f"The scan {path} is not a text file of points: no line starts with a number.")
     separator, decimal_comma = _layout(beginning.sample)
     columns, of_normals = _columns(beginning.header, separator, beginning.sample[0])
     body = data[beginning.start :]
@@ -79,7 +79,7 @@ def _text(path: Path) -> bytes:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("utf-8", errors="replace")
     elif b"\x00" in data[:4096]:
-        raise InputError(f"The scan {path} is not a text of points: it holds binary data.")
+        raise InputError(f"The scan {path} is not a text file of points: it contains binary data.")
     data = data.removeprefix(b"\xef\xbb\xbf")
     return data if b"\n" in data else data.replace(b"\r", b"\n")
 
@@ -165,7 +165,7 @@ def _parse_slowly(path: Path, body: bytes, first: int, separator: str | None,
             continue
         fields = line.split(separator, last + 1)
         if len(fields) <= last:
-            raise InputError(f"The scan {path} is damaged or no text of points: line {number} has fewer than "
+            raise InputError(f"The scan {path} is damaged or not a text file of points: line {number} has fewer than "
                              f"{last + 1} values.")
         values.extend(_number(path, fields[column].strip().strip("\"'"), number) for column in columns)
     return np.frombuffer(values, dtype=float).reshape(-1, len(columns))
@@ -177,5 +177,5 @@ def _number(path: Path, field: str, line_number: int) -> float:
     try:
         return float(field)
     except ValueError as error:
-        raise InputError(f"The scan {path} is damaged or no text of points: line {line_number} holds "
-                         f"'{field[:30]}' where a number belongs.") from error
+        raise InputError(f"The scan {path} is damaged or not a text file of points: line {line_number} has "
+                         f"'{field[:30]}' instead of a number.") from error

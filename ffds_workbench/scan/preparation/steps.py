@@ -134,7 +134,7 @@ def _clean(work: _Work, settings: PreparationSettings, progress: Progress) -> No
         progress("Looking for clutter")
         kept, large = clutter.in_large_pieces(work.points, spacing, up)
         work.keep("clutter", kept, {"pieces": large},
-                  nothing="The scan falls into single points: its clutter cannot be told from the part.")
+                  nothing="The scan consists of single points: its clutter cannot be told from the part.")
     if settings.remove_outliers:
         progress("Looking for outliers")
         work.keep("outliers", clutter.surrounded(work.points))

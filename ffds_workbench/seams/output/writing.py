@@ -122,9 +122,9 @@ def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
                if (exceeded := seam.exceeded(plan.limits))]
     notes = []
     if failing and robot.keep_failing:
-        notes.append(f"Beyond their limits, and in the programs all the same: {', '.join(failing)}.")
+        notes.append(f"Beyond their limits, but included in the programs: {', '.join(failing)}.")
     elif failing:
-        notes.append(f"Beyond their limits, and therefore in no program: {', '.join(failing)}.")
+        notes.append(f"Beyond their limits, and therefore left out of the programs: {', '.join(failing)}.")
     return notes + blocked_ways(plan.shape, [moves(seam, robot) for seam in programmed_seams(plan, robot)])
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Bending energy of a displacement field on a surface: what a deformation costs where the scan says nothing.
+"""Bending energy of a displacement field on a surface: the penalty of a deformation where the scan says nothing.
 
 On a plane it is ∫ d_uu² + 2 d_uv² + d_vv² over the physical area. On a curved surface the second derivatives are
-covariant, and the turning of the normal is taken out, so that moving the face as a rigid body costs nothing.
+covariant, and the rotation of the normal is removed, so that moving the face as a rigid body costs nothing.
 """
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The scan points of a face: a sample for the steps that need no more, and all of them, piece by piece.
 
-Where they are many they are not kept but located anew, so that memory does not grow with the scan.
+Many points are not kept but located anew in each step, so that memory does not grow with the scan.
 """
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The size of a control lattice that a scan can determine: coarse for the early steps, by held-out data for the last.
 
-Both directions get the same span in mm. A lattice is as fine as predicting parts of the face that were held out asks
-for: finer ones follow noise, coarser ones leave out what is there.
+Both directions get the same span in mm. The lattice is the one that predicts held-out parts of the face best: finer
+ones follow noise, coarser ones miss shape.
 """
 from __future__ import annotations
 

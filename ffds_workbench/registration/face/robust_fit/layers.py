@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a robust fit starts: the layers that the scan forms over the face, and the stiff motion that brings it to one.
+"""Where a robust fit starts: the layers that the scan forms over the face, and the rigid motion that brings it to one.
 
 A scan holds more than the face: the back of the sheet, a table, neighbours, outliers. Along the normal the points of a
 block of cells form layers. Of those near the current surface the outermost is the face: behind it lies the material.

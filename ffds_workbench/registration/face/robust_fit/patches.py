@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Patches of connected layers: the face itself, and islands that are checked for belonging to it.
 
-A patch of another sheet just below the face looks like the face where the face is hidden. It is not joined to the
-visible face by a continuous surface, and it lies off where that surface leads.
+Where the face is hidden, a patch of another sheet just below it looks like the face. But no continuous surface joins it
+to the visible face, and it lies off the continuation of that surface.
 """
 from __future__ import annotations
 

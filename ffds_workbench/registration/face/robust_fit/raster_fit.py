@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One step of a robust fit: residuals of the scan against the current surface, and the lattice they ask for.
+"""One step of a robust fit: residuals of the scan against the current surface, and the lattice that fits them.
 
-The displaced surface S + d is written over the nominal as scan points are: the point of material cell (x, y) has its
-nominal foot point at (x + shift) and the height H there. So the scan is compared with it without projecting it again.
+The displaced surface S + d is expressed over the nominal one as scan points are: the point of material cell (x, y) has
+its nominal foot point at (x + shift) and the height H there. So the scan is compared with it without projecting it
+again.
 """
 from __future__ import annotations
 
@@ -112,9 +113,9 @@ class RasterFit:
     def allow_even_bending(self, state: FitState) -> None:
         """From here on a plane may bend evenly: the change of its curvature is penalised instead of the curvature.
 
-        Little data and much clutter want the stiffer energy first; where the face is known, this one follows it more
-        closely, and leads on as it bends where nothing is seen. The length over which curvature may change is that of
-        the displacement of ``state``, on this lattice.
+        With little data and much clutter the stiffer energy comes first; once the face is known, this one follows it
+        more closely, and extrapolates its bend where nothing is seen. The length over which curvature may change is
+        that of the displacement of ``state``, on this lattice.
         """
         if not self.raster.flat:
             return
@@ -136,7 +137,7 @@ class RasterFit:
 
     def step(self, state: FitState, data: FacePoints | SurfaceCoordinates | Layers, noise: float, stiffness: float,
              gate: float) -> FitState:
-        """Weigh the data about the current surface, and solve for the displacement they ask for.
+        """Weight the data about the current surface, and solve for the displacement that fits them.
 
         Parameters
         ----------

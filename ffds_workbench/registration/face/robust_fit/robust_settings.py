@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 LAYERS, MAIN_PATCHES, PROVEN = "layers", "main patches", "proven"
-"""What a stage trusts to be the face: all that the scan shows, the heaviest of the patches that hang together, or these
-with whatever lies on the surface that they lead to."""
+"""What a stage trusts to be the face: all that the scan shows, the heaviest connected patches, or these with whatever
+lies on the surface through them."""
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class RobustStage:
     ----------
     bending : multiplies the bending weight
     gate : distance in mm at which a point or a layer loses its weight
-    trusts : `LAYERS`, `MAIN_PATCHES` or `PROVEN`; from the last one on the points count, and no more the layers
+    trusts : `LAYERS`, `MAIN_PATCHES` or `PROVEN`; from the last one on, points count instead of layers
     every_point : of the scan, instead of a sample
     """
 

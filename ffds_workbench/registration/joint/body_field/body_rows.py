@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the body tells of its faces: how they slide in themselves, and where those lie that nothing shows.
+"""What the body implies about its faces: how they slide within themselves, and where unseen ones lie.
 
-A scan tells of a face only where it lies along its normal. But a body deforms as one: its displacement is smooth in
-space, and where faces look in many directions, their normal components together tell of the others.
+A scan shows only where a face lies along its normal. But a body deforms as a whole: its displacement is smooth in
+space, and where faces have normals in many directions, their normal components together determine the others.
 """
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class BodyRows:
 
 
 def body_informs(problem: Problem, trust: PriorTrust) -> bool:
-    """Whether the body's rows have any weight: those of sheets that keep all lengths have none.
+    """Whether the body's rows have any weight: those of isometric sheets have none.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 
 Formulas and their numbers are those of Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006. The three
 components of the field are alike and independent; its length, size and noise are the likeliest ones (eq. 5.8). Own code
-because scikit-learn's regression knows values of a whole function alone, not components in a direction of each place.
+because scikit-learn's regression takes scalar values only, not components in a direction of its own at each place.
 """
 from __future__ import annotations
 
@@ -83,9 +83,9 @@ class FieldModel:
 
 @dataclass(frozen=True)
 class Pose:
-    """Six means of a field over places (q, 3) on bodies (q,): how far it moves and turns them as a whole.
+    """Six means of a field over places (q, 3) on bodies (q,): its translation and rotation of them as a whole.
 
-    ``rows`` (6, q, 3) give them in mm, turns as the movement that they make.
+    ``rows`` (6, q, 3) give them in mm, rotations as the movement that they cause.
     """
 
     place: Array
@@ -164,7 +164,7 @@ def most_likely_model(seen: Observations) -> FieldModel:
 
 
 def overconfidence(model: FieldModel, seen: Observations, block: Index) -> float:
-    """How many times as large as it says the variance is with which the field foretells a block from all others, ≥ 1.
+    """Factor, ≥ 1, by which the true variance exceeds the stated one when the field predicts a block from all others.
 
     Every block (n,) of observations is left out in turn (eq. 5.10 to 5.12, for blocks: the inverse of K's own block).
     """
@@ -188,8 +188,8 @@ def _grid_neighbours(length: int, noise: int) -> list[tuple[int, int]]:
 
 
 def _likelihood(model: FieldModel, seen: Observations, between: Array, least: float) -> tuple[float, FieldModel]:
-    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance, at ``least`` so
-    many mm²."""
+    """Logarithm of the likelihood, less what all models share, of a model with its likeliest variance, which is
+    ``least`` mm² or more."""
     factor = cholesky(between + np.diag(model.noise * seen.noise), lower=True, check_finite=False)
     white = solve_triangular(factor, seen.value, lower=True, check_finite=False)
     variance = max(float(white @ white) / len(white), least)

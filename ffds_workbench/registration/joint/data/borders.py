@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Where the scan visibly ends: at a sharp edge between a face that was seen and one that was not.
 
-Data along the normal say nothing of an edge's place within its face. The outermost scan points in the plane of the seen
-face do.
+Data along the normal say nothing about where an edge lies within its face. The outermost scan points in the plane of
+the seen face do.
 """
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, di
     """Frames of all cells within the trims.
 
     ``distance`` (spans, k) is that from the border in mm, negative outside; cells nearer than ``margin`` (spans,) to it
-    attract points but hold none.
+    attract points but discard them.
 
     Parameters
     ----------

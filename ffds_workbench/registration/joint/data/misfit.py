@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattices' own errors: residual heights of the scan that have the same sign among neighbours and exceed the noise.
 
-Where priors hold a face off the scan, or its lattice cannot follow, the covariance knows nothing of it.
+Where priors hold a face off the scan, or its lattice cannot follow, the covariance does not show it.
 """
 from __future__ import annotations
 

@@ -67,8 +67,8 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
 def _noise_beside(points: Array, found: Correspondence, face: Index) -> float:
     """Standard deviation of the heights of neighbours (n, 3) on the same face, infinite if there are none.
 
-    Planes through neighbours, as in `scan_statistics`, see the bends and the far side of a part where points are few;
-    heights above the nominal part see of a deformation only its slope.
+    Planes through neighbours, as in `scan_statistics`, take in bends and the far side of a part where points are few;
+    of a deformation, differences of heights over the nominal part contain only the slope.
     """
     if len(points) < 2:
         return float(np.inf)

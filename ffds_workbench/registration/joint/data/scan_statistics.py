@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a scan says of itself before anything is matched: point density and noise."""
+"""What a scan alone shows, before anything is matched: point density and noise."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How heights scatter: the sensor's noise, and what the lattices cannot follow, as two variances.
 
-Both come from differences between neighbours, which a shape that is held off the scan does not enter: the sensor's from
-points against the others of their cell, the model's from neighbouring patches of cells within one span, nearer to each
-other than a lattice can bend between. A shape that leaves the points is pulled back as strongly as before.
+Both come from differences between neighbours, which do not depend on whether the shape lies off the scan: the sensor's
+from points and the others of their cell, the model's from neighbouring patches of cells within one span, between which
+a lattice cannot bend. A shape that leaves the points is therefore pulled back as strongly as before.
 """
 from __future__ import annotations
 

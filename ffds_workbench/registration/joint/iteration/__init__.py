@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The iteration: `state` (where it stands, and what it uses again), `assembly` (the objective, row by row), `step` (one
+"""The iteration: `state` (the current point, and what is reused), `assembly` (the objective, row by row), `step` (one
 Gauss-Newton step) and `shape_matrices` (what the priors add to the matrix, kept for shapes near by).
 """
 from .assembly import add_observations, mean_curvature_change, prior_equations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The objective, row by row: what the scan says, and what the shape resists, at the current shape.
+"""The objective, row by row: the data and the priors at the current shape.
 
 Minimised over the control points is twice a negative log posterior, a sum of squares, each over its own variance:
 
@@ -23,8 +23,8 @@ body                    d − kriging's mean, mm                        inverse 
 ======================= ============================================= ==============================================
 
 The variances σ² and τ² are estimated anew in every step, from differences of neighbours that the shape does not enter;
-the trusts are ratios of the expected cost of a prior to what it costs (`prior_trust.py`); the scale of Tukey's loss
-only falls. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
+the trusts are ratios of a prior's expected cost to its actual one (`prior_trust.py`); the scale of Tukey's loss
+only decreases. Priors and data are in the same unit, so that the inverse of the normal matrix is the covariance.
 """
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ from .state import State
 
 
 def add_observations(equations: NormalEquations, problem: Problem, state: State, jet: Jet) -> None:
-    """Add all that the scan says of the current shape ``jet`` of the cells, directly or by way of the body.
+    """Add all rows from the scan at the current shape ``jet`` of the cells, directly or by way of the body.
 
     Parameters
     ----------

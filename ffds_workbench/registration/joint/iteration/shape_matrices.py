@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Matrices of the priors at a shape, which serve the shapes near by as well."""
+"""Matrices of the priors at a shape, which are reused for shapes nearby."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace

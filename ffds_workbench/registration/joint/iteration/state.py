@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the joint solve stands: the displacement, what the last step learnt, and what the next one uses again."""
+"""The state of the joint solve: the displacement, what the last step found, and what the next one reuses."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -53,7 +53,7 @@ class EarlierFactor:
 
 @dataclass(frozen=True)
 class StepCache:
-    """What the next step uses again, because the shape hardly changes.
+    """What the next step reuses, because the shape hardly changes.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class State:
     ----------
     control_points : (controls, 3) displacement in mm
     values : of the last iteration
-    cache : what the next one uses again
+    cache : what the next one reuses
     outward : (n, 3) outward normals of the sample's points, zero where unknown; None where it does not matter
     trust : in the priors
     last_step : largest movement of a cell in the last iteration, in mm

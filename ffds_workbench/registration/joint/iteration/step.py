@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One Gauss-Newton step: match the scan to the current shape, weigh every cell, solve, move the control points."""
+"""One Gauss-Newton step: match the scan to the current shape, weight every cell, solve, move the control points."""
 from __future__ import annotations
 
 from dataclasses import replace

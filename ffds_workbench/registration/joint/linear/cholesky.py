@@ -70,7 +70,8 @@ class FrontCholesky:
     def __init__(self, layout: FrontLayout, blocks: Array, earlier: FrontCholesky | None = None) -> None:
         """Factor the matrix with the pattern's ``blocks`` (3, 3, n).
 
-        The memory of an ``earlier`` factor of the same layout is used again: it is one of this matrix from then on.
+        The memory of an ``earlier`` factor of the same layout is reused, and holds the factor of this matrix from then
+        on.
 
         Raises
         ------
@@ -133,7 +134,7 @@ class FrontCholesky:
         return x
 
     def inverse_blocks(self) -> Array:
-        """The blocks of A⁻¹ on the pattern, (3, 3, n). They take the place of the factor, which is none any more."""
+        """The blocks of A⁻¹ on the pattern, (3, 3, n). They overwrite the factor, which cannot be used any more."""
         layout, flat = self.layout, self.flat
         last_child = {front.parent: number for number, front in reversed(list(enumerate(layout.fronts)))}
         beyond: dict[int, Array] = {}
@@ -171,22 +172,22 @@ class FrontCholesky:
 
 
 def _square(size: int, memory: list[Array]) -> Array:
-    """A matrix in the smallest piece of used memory that holds it, or in new memory: fresh pages take longer to come by
-    than to fill."""
+    """A matrix in the smallest piece of used memory that holds it, or in new memory: allocating fresh pages takes
+    longer than filling them."""
     fits = [number for number, piece in enumerate(memory) if len(piece) >= size * size]
     piece = memory.pop(min(fits, key=lambda number: len(memory[number]))) if fits else np.empty(size * size)
     return np.ndarray((size, size), buffer=piece, order="F")
 
 
 def _add(target: Array, left: Array, rows: _Runs, columns: _Runs) -> None:
-    """Add a matrix to another piece by piece; what comes to lie below the diagonal is of no use."""
+    """Add a matrix to another piece by piece; what ends up below the diagonal is never used."""
     for number, (here, there) in enumerate(rows):
         for other_here, other_there in columns[number if columns is rows else 0 :]:
             target[there, other_there] += left[here, other_here]
 
 
 def _take(target: Array, source: Array, rows: _Runs, columns: _Runs) -> None:
-    """The other way round: what `_add` would add to."""
+    """The inverse of `_add`: take the entries that it would add to."""
     for number, (here, there) in enumerate(rows):
         for other_here, other_there in columns[number if columns is rows else 0 :]:
             target[here, other_here] = source[there, other_there]

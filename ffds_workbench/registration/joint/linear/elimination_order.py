@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Nested dissection: a tree of separators that cuts the control points' graph into ever smaller independent parts.
+"""Nested dissection: a tree of separators that cuts the graph of the control points into ever smaller independent
+parts.
 
-Found once per part, from where the control points lie and which of them meet in a row (George, SIAM J. Numer. Anal. 10,
-1973). Fill-in and work then grow as n log n and n^1.5 on a surface, far below those of a banded order.
-Own code because scipy orders by bands only (reverse Cuthill and McKee), and Debian 12 has no METIS for Python.
+Computed once per part, from where the control points lie and which of them share a row (George, SIAM J. Numer. Anal.
+10, 1973). Fill-in and work then grow as n log n and n^1.5 on a surface, far below those of a banded order. Own code
+because scipy orders by bands only (reverse Cuthill and McKee), and Debian 12 has no METIS for Python.
 """
 from __future__ import annotations
 
@@ -67,7 +68,8 @@ def _split(graph: csr_matrix, position: Array, nodes: Index, groups: list[Index]
 
 
 def _cut(graph: csr_matrix, position: Array) -> tuple[Index, tuple[Index, ...]]:
-    """The separator of a graph and what it parts; nothing parts what is not connected, all nodes what no cut helps.
+    """The separator of a graph and what it parts; an unconnected graph has an empty separator, and where no cut helps
+    it holds all nodes.
 
     Of all cuts across the principal axes, and between the levels of a breadth-first search from one end (George and
     Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 8), the cheapest.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How much memory a joint solve takes, told before it is taken: a killed process says nothing."""
+"""How much memory a joint solve takes, estimated beforehand: a killed process explains nothing."""
 from __future__ import annotations
 
 import math

@@ -45,7 +45,7 @@ class SomeBlocks:
 
 
 class Pattern:
-    """Which control points meet in a row, found once per part.
+    """Which control points share a row, computed once per part.
 
     The normal matrix is symmetric. Of every block and its transpose the pattern holds the one whose row has the smaller
     number, and what stands on it are blocks (3, 3, size): components first, as sums over all blocks are then sums of
@@ -159,7 +159,7 @@ def solve_normal_equations(pattern: Pattern, blocks: Array, right: Array, factor
     blocks : (3, 3, size) values on the pattern
     right : (controls, 3)
     factor : Cholesky factor of an earlier matrix, or None; its memory is used for a new one
-    near : whether that matrix was near to this one
+    near : whether that matrix was similar to this one
 
     Returns
     -------

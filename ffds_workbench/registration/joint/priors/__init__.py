@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is assumed where the scan says nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
+"""What is assumed where the scan shows nothing: `stiffness` (bending and stretching of a face), `couplings` (shared
 edges, poles, thickness, edge angles, frozen faces), `shared_edges` (the places along them), `sheet_pairs` (the two
-skins of a sheet), `contacts` (touching solids), `trust_factors` (how far each prior counts), `constant_rows` (their
-rows that are the same at every shape), `free_motions` (along which nothing is known of a solid, so that it stays).
+skins of a sheet), `contacts` (touching solids), `trust_factors` (how much each prior counts), `constant_rows` (their
+rows that are the same at every shape), `free_motions` (of a solid within its own surface).
 """
 from .constant_rows import ConstantRows, constant_rows
 from .contacts import contact_rows

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rows of the normal equations that are the same at every shape: one number per block where x, y and z are alike."""
+"""Rows of the normal equations that are the same at every shape: one number per block where x, y and z are equal."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where solids of an assembly touch: what nothing observes of one (a pipe about its axis) follows its neighbour."""
+"""Where solids of an assembly touch: a motion that nothing observes (a pipe about its axis) follows the neighbour."""
 from __future__ import annotations
 
 import numpy as np

@@ -156,7 +156,7 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     edges = shared_edge_places(part, lattices)
     rows = vstack([edges.first.matrix(count) - edges.second.matrix(count), _pole_rows(part, lattices)]).tocsr()
     thickness_rows = pairs.back.matrix(count) - pairs.front.matrix(count)
-    # One pair is one independent statement per square of the thickness; closer ones share it.
+    # Pairs are independent once per square of the thickness; closer ones share that weight.
     thickness_weight = (np.minimum(pairs.area / np.maximum(pairs.thickness, 1e-9) ** 2, 1.0)
                         / pairs.give**2)
     hinges = edges.take(edges.angled)
@@ -172,7 +172,7 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
 
 
 def pose_weight(lengths: Lengths, information: float) -> float:
-    """What is known of the pose of a solid before it is seen, in 1/mm².
+    """Weight of the prior on the pose of a solid, in 1/mm².
 
     Parameters
     ----------
@@ -185,8 +185,8 @@ def pose_weight(lengths: Lengths, information: float) -> float:
 def _anchor(part: JointPart, lattices: Lattices, lengths: Lengths, information: float) -> Array:
     """Weight of d = 0 on every control point: frozen faces, and the prior that a solid sits where it belongs.
 
-    The prior is also worth a small share of the scan, which no observed motion feels: a motion that nothing observes (a
-    body of revolution about its axis) must not follow what is left of errors elsewhere.
+    The prior also has a small share of the scan's weight, too little to affect any observed motion: an unobserved
+    motion (a body of revolution about its axis) must not follow residual errors elsewhere.
     """
     weight = np.zeros(lattices.count)
     prior = pose_weight(lengths, information)

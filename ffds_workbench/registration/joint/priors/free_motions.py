@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Motions of a solid that no scan tells of, since its surface slides in itself: a pipe turns about its axis.
+"""Motions of a solid within its own surface, which no scan shows: a pipe about its axis.
 
 Those of a surface are the null space of Σ (n · motion)² (Gelfand and Guibas, Shape segmentation using local slippage
-analysis, 2004). Along them a solid is to stay where it was: the mean of its movement along each of them is held at
-zero.
+analysis, 2004). The solid stays where it was: the mean of its movement along each of them is kept at zero.
 """
 from __future__ import annotations
 
@@ -92,7 +91,7 @@ def _of_solid(lattices: Lattices, cells: SpanGrid, area: Array, solid: Index) ->
 
 def _phrase(turn: Array, shift: Array) -> str:
     """What a motion does: about or along which direction."""
-    kind, axis = ("turns in itself about", turn) if np.linalg.norm(turn) > np.linalg.norm(shift) else (
-        "slides in itself along", shift)
+    kind, axis = ("can turn about", turn) if np.linalg.norm(turn) > np.linalg.norm(shift) else (
+        "can slide along", shift)
     axis = axis / np.linalg.norm(axis) * (1.0 if axis[np.argmax(np.abs(axis))] > 0 else -1.0)
     return kind + " ({:.2f}, {:.2f}, {:.2f})".format(*np.round(axis, 2) + 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a shape resists: bending, and stretching of its mid surface, integrated at Gauss places of every span.
+"""Bending, and stretching of the mid surface, integrated at the Gauss points of every span.
 
 Indices i, j run over the orthonormal frame e₁, e₂ of the nominal surface and a comma-free ``;`` is its covariant
 derivative. The rows of a symmetric tensor are 11, √2·12, 22, so that sums of squares are its norm.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far each prior counts: factors on their weights."""
+"""How much each prior counts: factors on their weights."""
 from __future__ import annotations
 
 from dataclasses import dataclass

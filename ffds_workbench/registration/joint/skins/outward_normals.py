@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Outward normals of scan points: which side of a thin part each shows.
 
-A sheet that moved by its own thickness lies where its far side was. Neighbouring scan points show the same side, so one
-sign is wanted per connected piece of the scan; the piece as a whole tells it, since no part of a sheet moves without
-its neighbours. Normals that the scan brings tell it as well. Where nothing does, both sides are candidates.
+A sheet that moved by its own thickness lies where its far side was. Neighbouring scan points show the same side, so
+each connected piece of the scan has one sign, which the piece as a whole determines, since no part of a sheet moves
+without its neighbours. Normals of the scan determine it as well. Where nothing does, both sides are candidates.
 """
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Which skin of a sheet the scan shows, where it was fitted to either: what is seen of the walls between them tells,
-and what the fits cost.
+"""Which skin of a sheet the scan shows, given a fit to each: decided by the cost of the fits and by what is seen of the
+walls between the skins.
 """
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ moved less by the first factor, with such wide bands if it moved less by the sec
 def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
-    Where what is seen beside the skins does not tell, the first is right if it was ``told`` by the scan's normals and
-    did not move far more. Without them the one that moved less is a guess, with bands as wide as the sheet is thick,
-    unless it moved far less.
+    If neither costs nor walls decide, the first is right if the scan's normals ``told`` it and it did not move far
+    more. Without normals the one that moved less is a guess, with bands as wide as the sheet is thick, unless it moved
+    far less.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
 
 
 def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]:
-    """What a fit says for itself: its cost in chi-square units, how many points of the sample are matched, how many
+    """Evidence for a fit: its cost in chi-square units, how many points of the sample are matched, how many
     scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
     frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)

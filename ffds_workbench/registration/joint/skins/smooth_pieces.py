@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Smooth connected pieces of a scan, each with one side: neither a sheet's edge nor its far side is passed."""
+"""Smooth connected pieces of a scan, each with one side: they cross neither a sheet's edge nor to its far side."""
 from __future__ import annotations
 
 import numpy as np

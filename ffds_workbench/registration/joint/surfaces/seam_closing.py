@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Makes the ends of lattices exact where a surface meets itself: one displacement at a pole, the same along a seam.
+"""Closes lattices exactly where a surface meets itself: one displacement at a pole, the same on both sides of a seam.
 
-The solve leaves about 1e-3 mm there, and neighbours cannot close what one face disagrees with itself about.
+The solve leaves gaps of about 1e-3 mm there, which no correction from neighbouring faces can close.
 """
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How many spans the displacement of every face needs, from the size of its solid and from its own shape.
 
-A solid deforms as one: the lengths over which its displacement changes go with its size, not with that of its faces. A
-tube of 1 m needs a dozen spans along it and one across, a clip of 10 mm as many as a bracket of 100 mm.
+A solid deforms as a whole: the lengths over which its displacement changes follow its size, not that of its faces. A
+tube of 1 m needs a dozen spans along and one across, a clip of 10 mm as many as a bracket of 100 mm.
 """
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far faces and edges can be trusted, and why: their 95 % bands, and whether the scan observes them."""
+"""How much faces and edges can be trusted, and why: their 95 % bands, and whether the scan observes them."""
 from __future__ import annotations
 
 from collections.abc import Sequence

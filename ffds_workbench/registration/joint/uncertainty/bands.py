@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far the result may be off: 95 % bands from the covariance, the misfit, and what is known to fail at borders."""
+"""How far the result may be off: 95 % bands from the covariance, the misfit, and known errors at borders."""
 from __future__ import annotations
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The covariance of the control points, with priors widened as far as the scan shows to be necessary."""
+"""The covariance of the control points, with priors widened as far as the scan requires."""
 from __future__ import annotations
 
 import numpy as np
@@ -20,8 +20,8 @@ _HUTCHINSON_PROBES = 16
 def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:
     """Blocks (3, 3, size) of the covariance on the pattern, and the errors that `shared_errors` finds.
 
-    In chi-square units the normal matrix is the inverse of the covariance. What the priors cost, over the number of
-    shapes that the scan tells of the part, is the factor by which their variances are too small (MacKay, Neural
+    In chi-square units the normal matrix is the inverse of the covariance. The cost of the priors, over the effective
+    degrees of freedom that the scan determines, is the factor by which their variances are too small (MacKay, Neural
     Computation 4, 1992, eq. 4.8, for all priors together).
     """
     factor, errors = _factor(problem, state)

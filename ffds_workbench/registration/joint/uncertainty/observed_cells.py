@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the scan observes of every face, and what has to be bridged or is only carried along."""
+"""What the scan observes of every face, what is bridged and what is only carried along."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The effect of noise that neighbouring points share: the lattices follow it as they follow shape.
+"""The effect of correlated noise, which the lattices follow as they follow shape.
 
-The result is linear in the heights of the scan, so that fields drawn from the sensor's profile, put through the last
-normal equations, stray as the result does.
+The result is linear in the heights of the scan, so that random fields drawn from the sensor's profile and put through
+the last normal equations scatter as the result does.
 """
 from __future__ import annotations
 

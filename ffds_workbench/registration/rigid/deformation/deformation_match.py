@@ -32,10 +32,10 @@ class Match:
     normal: Array
 
     def heights(self, points: Array, gate: float, least: int) -> DisplacementObservations | None:
-        """The displacements that the heights ask for, with the points (n, 3) as scanned; None if less than
-        ``least`` points are matched.
+        """The displacements that the heights imply, with the points (n, 3) as scanned; None if fewer than ``least``
+        points are matched.
 
-        Points count by how much of it is left to explain, within the gate in mm or the spread of all, if that is wider.
+        Points are weighted by their remaining residual, within the gate in mm or the spread of all, if that is wider.
         """
         some = np.flatnonzero(np.isfinite(self.distance))
         if len(some) < least:

@@ -24,8 +24,8 @@ def pose_of_deformed_part(target: Target, points: Array, normals: Array, reach: 
     deformation that is left then.
 
     Distances from the faces alone leave a deformed sheet free to slide and turn in its own surface. Of the deformations
-    that explain them and the places where the scan ends, the likeliest is taken back. Once the part has moved by that
-    as a whole, the scan is looked at again: what lay far off was beside wrong rims.
+    that explain them and the places where the scan ends, the likeliest is undone. Once the part has moved as a whole,
+    the scan is matched again: points far off had been assigned to wrong rims.
 
     Parameters
     ----------

@@ -156,7 +156,7 @@ def no_displacement(target: Target) -> DisplacementField:
 
 @dataclass(frozen=True)
 class DisplacementObservations:
-    """Displacements wanted of places in one direction each.
+    """Observed displacements of places, in one direction each.
 
     Attributes
     ----------
@@ -190,10 +190,10 @@ def fit_displacement(start: DisplacementField, heights: DisplacementObservations
     Parameters
     ----------
     start : the deformation so far; its monomials are those that are fitted
-    heights : what points on the faces want
-    ends : what the ends of the scan want
-    noise : standard deviation of the points in mm, where the strain so far is to tell what the one along the surface
-        costs: the less, the more of it there is
+    heights : displacements observed on the faces
+    ends : displacements observed where the scan ends
+    noise : standard deviation of the points in mm; with it, the weight of the surface strain is adapted to the strain
+        so far: the larger the strain, the smaller its weight
     """
     space, count, settings = start.space, len(start.coefficients), start.space.settings
     coefficients = start.coefficients.ravel()

@@ -75,7 +75,7 @@ class Target:
 
     @cached_property
     def kept(self) -> dict[Any, Any]:
-        """What ``kept_with_target`` keeps."""
+        """What ``kept_with_target`` caches."""
         return {}
 
     @cached_property
@@ -153,7 +153,7 @@ class Target:
         arm = self.samples.points - self.centre
         axes = np.linalg.eigh(arm.T @ arm)[1]
         pictures = [arm @ np.delete(axes, k, axis=1) for k in range(3)]
-        return max(ConvexHull(points).volume for points in pictures  # a plane face is a line from aside
+        return max(ConvexHull(points).volume for points in pictures  # edge on, a plane face is a line
                    if np.ptp(points, axis=0).min() > _FLAT_SHADOW * np.ptp(points))
 
     @cached_property
@@ -209,7 +209,7 @@ class Target:
 
 
 def kept_with_target(compute: Callable[[Target], Result]) -> Callable[[Target], Result]:
-    """What ``compute`` derives from the model alone is computed for the first scan and kept for the next ones."""
+    """Caches with the target what ``compute`` derives from the model alone, for the next scans."""
     @wraps(compute)
     def kept(target: Target) -> Result:
         if compute not in target.kept:

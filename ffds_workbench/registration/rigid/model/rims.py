@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the part's faces visibly end: they hold a scan in directions that the surface itself leaves free."""
+"""Where the part's faces visibly end: this constrains a scan in directions that the surfaces leave free."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a scan ends along the part's rims: what holds it in the directions that its surfaces leave free."""
+"""Where a scan ends along the part's rims: this constrains it in the directions that its surfaces leave free."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
