@@ -66,6 +66,26 @@ def boundary_points(face: FaceGeometry, spacing: float) -> Array:
 
     Seams of a closed direction and poles are no boundary and are left out.
     """
+    start, end = _boundary(face, spacing)
+    return face.surface(0.5 * (start + end)) if len(start) else np.zeros((0, 3))
+
+
+def boundary_pieces(face: FaceGeometry, spacing: float) -> tuple[Array, Array]:
+    """Middles of straight pieces along the trims of a ``face`` and half of each piece as a vector, (n, 3) each in mm.
+
+    Parameters
+    ----------
+    spacing : longest piece in mm, about
+    """
+    start, end = _boundary(face, spacing)
+    if not len(start):
+        return np.zeros((0, 3)), np.zeros((0, 3))
+    a, b = face.surface(start), face.surface(end)
+    return 0.5 * (a + b), 0.5 * (b - a)
+
+
+def _boundary(face: FaceGeometry, spacing: float) -> tuple[Array, Array]:
+    """Start and end in (u, v) of pieces along the boundary, (n, 2) each."""
     start, end = _segments(face.trims)
     u0, u1, v0, v1 = face.surface.range
     real = np.ones(len(start), dtype=bool)
@@ -76,17 +96,15 @@ def boundary_points(face: FaceGeometry, spacing: float) -> Array:
             real &= ~((np.abs(a - b) < near) & ((np.abs(a - low) < near) | (np.abs(a - high) < near)))
     start, end = start[real], end[real]
     if not len(start):
-        return np.zeros((0, 3))
+        return start, end
     middle = face.surface(0.5 * (start + end))
     a, b = face.surface(start), face.surface(end)
     length = np.linalg.norm(middle - a, axis=1) + np.linalg.norm(b - middle, axis=1)
     pieces = np.where(length > _ON_BOUNDARY, np.ceil(length / spacing), 0).astype(np.intp)
     segment = np.repeat(np.arange(len(start)), pieces)
     step = np.arange(len(segment)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    if not len(segment):
-        return np.zeros((0, 3))
-    share = ((step + 0.5) / pieces[segment])[:, None]
-    return face.surface((1 - share) * start[segment] + share * end[segment])
+    a, run = start[segment], ((end - start) / np.maximum(pieces, 1)[:, None])[segment]
+    return a + step[:, None] * run, a + (step[:, None] + 1) * run
 
 
 def _inwards(x: Array, low: float, high: float) -> Array:

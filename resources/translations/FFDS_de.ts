@@ -1837,6 +1837,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan zeigt dieses Teil nicht dort, wo er liegt: {0}; wählen Sie einen anderen Scan oder richten Sie ihn am Modell aus.</translation>
     </message>
     <message>
+      <source>The scan extends over only {0} mm of a part of {1} mm: check its unit, or scan more of the part.</source>
+      <translation>Der Scan erstreckt sich nur über {0} mm eines Teils von {1} mm: Prüfen Sie seine Einheit, oder scannen Sie mehr vom Teil.</translation>
+    </message>
+    <message>
       <source>The scan has only {0} points: at least {1} are needed.</source>
       <translation>Der Scan hat nur {0} Punkte: Nötig sind mindestens {1}.</translation>
     </message>

@@ -122,7 +122,7 @@ def test_frozen_faces_stay(part):
 @pytest.mark.parametrize("points, why", [
     (np.zeros((3, 3)), "points"),
     (scan_of([THICKNESS]) + [0, 0, 1e4], "overlap"),
-    (scan_of([THICKNESS]) / 1000, "near the part|overlap|converge|fold"),
+    (scan_of([THICKNESS]) / 1000, "extends over only"),
 ])
 def test_refusals(part, points, why):
     with pytest.raises(RefusedError, match=why):

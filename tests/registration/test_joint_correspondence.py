@@ -9,7 +9,7 @@ import Part
 from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
-from ffds_workbench.registration.joint.data import correspond, make_frames
+from ffds_workbench.registration.joint.data import correspond
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces import normals
 
@@ -17,7 +17,7 @@ RADIUS, LENGTH = 20.0, 60.0
 
 
 def frames_of(problem):
-    return make_frames(problem.lattices, problem.cells, problem.cells.nominal, problem.margin, problem.distance)
+    return problem.frames(problem.cells.nominal)
 
 
 def around(count, low, high, seed=0):
@@ -35,9 +35,8 @@ def cylinder():
 
 
 def held_between(cylinder):
-    """Heights in mm between which every place belongs to a cell that holds points: half a cell from the margin."""
-    aside = cylinder.margin.max() + 0.5 * largest_cell(cylinder)
-    return aside, LENGTH - aside
+    """Heights in mm between which every place is farther from the border than the margin."""
+    return cylinder.margin.max(), LENGTH - cylinder.margin.max()
 
 
 def test_height_above_a_cylinder(cylinder):
@@ -77,10 +76,15 @@ def test_no_point_counts_beyond_the_border_or_close_to_it(plate):
     from_hole = np.linalg.norm(points[:, :2] - [30, 20], axis=1) - 8.0
     from_sides = np.minimum(points[:, :2], [60, 40] - points[:, :2]).min(axis=1)
     distance, margin = np.minimum(from_hole, from_sides)[found.point], plate.margin.min()
-    # A cell holds points up to three quarters of its sides from its middle.
-    assert distance.min() > margin - 0.75 * largest_cell(plate) * np.sqrt(2)
-    inside = np.flatnonzero(np.minimum(from_hole, from_sides) > plate.margin.max() + largest_cell(plate) * np.sqrt(2))
+    # The hole's pieces of a quarter of a cell differ from its circle by their sagitta.
+    sagitta = (0.25 * largest_cell(plate)) ** 2 / (8 * 8.0)
+    assert distance.min() > margin - 2 * sagitta
+    # Round the hole a cell has its middle up to a diagonal away; beside the sides, those of the walls' small cells are
+    # nearer to points within half a cell. The outermost row of cells holds points.
+    side = largest_cell(plate)
+    inside = np.flatnonzero((from_hole > margin + side * np.sqrt(2)) & (from_sides > margin + 0.5 * side))
     assert set(inside) <= set(found.point)
+    assert (plate.distance.ravel()[found.cell] < 0.51 * side).any()
 
 
 def normals_up(problem):

@@ -61,6 +61,11 @@ class Lengths:
         return max(self.noise, self.reach * _CLEAN)
 
     @property
+    def border_margin(self) -> float:
+        """Distance from a border that points of the face keep: the neighbour's have their feet nearer to it."""
+        return NOISE_ENDS_SIGMAS * self.border
+
+    @property
     def farthest_noise(self) -> float:
         """How far from the part noise alone carries points."""
         return NOISE_ENDS_SIGMAS * self.noise

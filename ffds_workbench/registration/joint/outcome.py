@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import RefusedError
 from ..arrays import Array, Index
 from ..motions import apply, best_fit
-from .data import Correspondence, correspond, make_frames
+from .data import Correspondence, correspond
 from .iteration import EdgeCache, PointCache, State
 from .joint_result import JointRegistration, SolidMotion
 from .prior_trust import is_isometric, observed_strain
@@ -98,8 +98,7 @@ def _refuse_off_scan(problem: Problem, state: State) -> None:
 def _all_matched(problem: Problem, control_points: Array, reach: float) -> Correspondence:
     """All points of the sample within ``reach`` mm of a shape, before any is weighed."""
     jet = problem.cells.displaced(problem.lattices, control_points)
-    return correspond(problem.sample, make_frames(problem.lattices, problem.cells, jet, problem.margin,
-                                                  problem.distance), reach)
+    return correspond(problem.sample, problem.frames(jet), reach)
 
 
 def _rotated_normals(problem: Problem, position: Array, normal: Array) -> Array:

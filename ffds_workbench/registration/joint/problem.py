@@ -11,14 +11,15 @@ from numpy.typing import NDArray
 
 from ...errors import RefusedError
 from ..arrays import Array, Index
-from .data import EdgeSides, ScanStatistics, edge_sides, find_lengths, scan_statistics, trim_margin
+from .data import (EdgeSides, Frames, ScanStatistics, edge_sides, find_lengths, make_frames, scan_statistics,
+                   trim_margin)
 from .lengths import Lengths
 from .linear import Pattern, refuse_too_large
-from .priors import (GAUSS_PLACES, ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows,
-                     contact_rows, find_free_motions, find_pairs, make_couplings, make_stiffness)
+from .priors import (ConstantRows, Couplings, FreeMotions, PriorTrust, Stiffness, constant_rows, contact_rows,
+                     find_free_motions, find_pairs, make_couplings, make_stiffness)
 from .settings import JointSettings
-from .surfaces import (JointPart, Lattices, SpanGrid, build_lattices, cell_sides, distance_to_trims, make_span_grid,
-                       normals, solid_sizes, span_counts)
+from .surfaces import (BorderDistance, Jet, JointPart, Lattices, SpanGrid, build_lattices, cell_sides,
+                       distance_to_trims, make_span_grid, normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
 """Scan points of the early stages (unit: time)."""
@@ -28,11 +29,9 @@ _POINTS_PER_SPAN = 20.0
 """Points of a span at least (theory: sixteen control points act on one)."""
 _FEWEST_POINTS = 50
 """Points of a scan at least (unit)."""
-_TRIM_MARGIN = 0.62
-"""Over the side of a cell: nearer to the border of a face, a cell would hold points of its neighbour (theory: half of
-it, and a little for what a shape is off)."""
-_FARTHEST_IN_MARGINS = 4.0
-"""Distances from the border are known up to this (theory: nothing asks for more)."""
+_FARTHEST_IN_MARGINS, _FARTHEST_IN_SIDES = 4.0, 1.1
+"""Distances from the border are known up to so many margins and sides of cells together (theory: nothing asks for
+more; points lie within three quarters of a diagonal from the middle of their cell)."""
 _CELLS_PER_SPAN = (3, 10)
 """Cells along a span, at least and at the most (theory: three see what a cubic can follow; unit: memory)."""
 _WALL_ISOMETRY = 0.1
@@ -50,13 +49,13 @@ class Problem:
     sample_normals : (n, 3) those that the scan brings for the sample, zero where it has none; None without any
     statistics : density and noise of the scan
     lattices, cells, stiffness, couplings, pattern : see their modules
-    distance : (spans, k) of the cells from the border of their face in mm, negative outside
+    border : how far the cells lie from the border of their face
     area : (spans, k) of the cells in mm²
     constant : rows that are the same at every shape
     sides : where the faces lie at their edges
     lengths : of the solve
     free_motions : of solids within their own surface
-    margin : (spans,) distance from the border that scan points must keep, in mm
+    margin : (spans,) distance from the border that the foot points of the scan must keep, in mm
     body_size : (spans,) size in mm of the solid that a span belongs to
     cell_side : usual length in mm of the sides of the cells
     """
@@ -68,7 +67,7 @@ class Problem:
     statistics: ScanStatistics
     lattices: Lattices
     cells: SpanGrid
-    distance: Array
+    border: BorderDistance
     area: Array
     stiffness: Stiffness
     couplings: Couplings
@@ -85,6 +84,15 @@ class Problem:
     def without_points_on(self, faces: Sequence[int]) -> Problem:
         """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
         return replace(self, margin=np.where(np.isin(self.lattices.face_of_span, faces), np.inf, self.margin))
+
+    @property
+    def distance(self) -> Array:
+        """Distance of the cells from the border of their face in mm, negative outside: (spans, k)."""
+        return self.border.distance
+
+    def frames(self, jet: Jet) -> Frames:
+        """What matches scan points to the cells of a shape."""
+        return make_frames(self.lattices, self.cells, jet, self.margin, self.border)
 
     @property
     def size(self) -> float:
@@ -139,7 +147,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     lattices = build_lattices(part.faces, counts)
     body_size = sizes[lattices.face_of_span]
     refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
-    stiffness = make_stiffness(lattices, make_span_grid(part.faces, lattices, GAUSS_PLACES), body_size)
+    stiffness = make_stiffness(part.faces, lattices, body_size)
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
     cells = make_span_grid(part.faces, lattices, (np.arange(per_span) + 0.5) / per_span)
@@ -147,17 +155,17 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                        sizes, settings.thickness_change)
     lengths = find_lengths(lattices, cells, sample, statistics)
     side = cell_sides(lattices, cells)
-    most = np.maximum(_TRIM_MARGIN * side, lengths.noise)
-    distance = distance_to_trims(part.faces, lattices, cells, most, _FARTHEST_IN_MARGINS * most)
+    border = distance_to_trims(part.faces, lattices, cells, side,
+                               _FARTHEST_IN_MARGINS * lengths.border_margin + _FARTHEST_IN_SIDES * side)
     couplings = make_couplings(part, lattices, pairs, contact_rows(part, lattices, cells, sizes), settings, lengths,
                                len(scan) / lengths.start**2)
     others = couplings.matrices()
     pattern = Pattern(lattices, [couplings.scalar, *others.graphs], _positions(lattices, cells))
     area = normals(cells.nominal, cells.outward)[1] * lattices.step.prod(axis=1)[:, None] / per_span**2
     area = np.where(cells.inside, area, 0.0)
-    margin = trim_margin(lattices, distance, most)
-    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, distance > margin[:, None])
-    return Problem(part, settings, scan, sample, statistics, lattices, cells, distance, area, stiffness, couplings,
+    margin = trim_margin(lattices, border.distance, lengths.border_margin)
+    sides = edge_sides(couplings.edges, cells, lattices.face_of_span, border.distance > margin[:, None])
+    return Problem(part, settings, scan, sample, statistics, lattices, cells, border, area, stiffness, couplings,
                    pattern, constant_rows(pattern, stiffness, couplings.scalar, others), sides, margin, lengths,
                    find_free_motions(part, lattices, cells, area, couplings.scalar), body_size,
                    float(np.median(side[lattices.face_of_span])),

@@ -127,12 +127,14 @@ def run_stage(problem: Problem, stage: Stage, state: State,
     if stage.soft:
         cache = replace(cache, matrices=cache.matrices.renewed_thickness(problem, state.control_points), body=None)
     state = replace(state, cache=cache)
-    for _ in range(stage.iterations):
+    for number in range(stage.iterations):
         before, judged = state, update_prior_trust(problem, state, stage)
         if not promising(judged):
             return judged
         state = gauss_newton_step(problem, stage, judged)
         loosening = state.trust.isometry < _TRUST_SETTLES * before.trust.isometry
+        if number == 0 and stage.all_points and not stage.body:
+            continue  # what it moves by is what other points say, not how far the shape is from settling
         if state.last_step < stage.enough and not (stage.all_points and loosening and _misfits_scan(problem, state)):
             break
         if stage.soft and not stage.all_points and not loosening and state.last_step > _SHRINKS * before.last_step:

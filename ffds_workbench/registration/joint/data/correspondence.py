@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
-from ..surfaces import Jet, Lattices, SpanGrid, normals
+from ..surfaces import BorderDistance, Jet, Lattices, SpanGrid, normals
 
 _WITHIN_CELL = 0.75
 """Sizes of a cell from its centre within which foot points belong to it (theory: half, and a quarter for neighbours'
 curved borders)."""
 _LOT = 65536
 """Points that are matched together: those of a large scan would take more memory than all else (unit: memory)."""
+_LEAST_WIDTH = 1e-3
+"""Half width of a face that no cell shows to be wider, over the widest margin (unit)."""
 _NEGLIGIBLE_SHARE = 0.002
 """Share of the points up to which those on the wrong side are left out rather than matched again (unit: time)."""
 
@@ -34,7 +36,8 @@ class Frames:
     step : (m, 2, 3) rows that turn an offset in mm into a step in (u, v)
     form : (m, 3) second fundamental form, uu, uv and vv
     size : (m, 2) of the cell in (u, v)
-    allowed : (m,) whether the cell is far enough from the border of its face to hold points
+    inside : (m,) how far the cell lies inside the part of its face that holds points, in mm
+    slope : (m, 2) how that grows with u and v, in mm
     beside : how far from the centre of its cell a foot point may lie, in mm
     """
 
@@ -44,7 +47,8 @@ class Frames:
     step: Array
     form: Array
     size: Array
-    allowed: NDArray[np.bool_]
+    inside: Array
+    slope: Array
     beside: float
 
 
@@ -66,19 +70,19 @@ class Correspondence:
     nearest: Index
 
 
-def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, distance: Array) -> Frames:
+def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, border: BorderDistance) -> Frames:
     """Frames of all cells within the trims.
-
-    ``distance`` (spans, k) is that from the border in mm, negative outside; cells nearer than ``margin`` (spans,) to it
-    attract points but discard them.
 
     Parameters
     ----------
     lattices : of all faces
+    cells : the raster over them
     jet : the current shape at the cells
+    margin : (spans,) distance in mm from the border that foot points must keep
+    border : how far the cells lie from it
     """
     per_span = int(np.sqrt(cells.inside.shape[1]))
-    span, place = np.nonzero(distance > 0)
+    span, place = np.nonzero(border.distance > 0)
     normal = normals(jet, cells.outward)[0][span, place]
     tangents, seconds = jet.tangents[span, place], jet.seconds[span, place]
     e, f, g = (np.einsum("nx,nx->n", tangents[:, i], tangents[:, j]) for i, j in ((0, 0), (0, 1), (1, 1)))
@@ -88,8 +92,8 @@ def make_frames(lattices: Lattices, cells: SpanGrid, jet: Jet, margin: Array, di
     size = lattices.step[span] / per_span
     beside = _WITHIN_CELL * np.sqrt(np.maximum(e, 0) * size[:, 0] ** 2 + np.maximum(g, 0) * size[:, 1] ** 2)
     return Frames(span * cells.inside.shape[1] + place, jet.position[span, place], normal, step,
-                  np.einsum("npx,nx->np", seconds, normal), size, distance[span, place] > margin[span],
-                  float(beside.max(initial=0.0)))
+                  np.einsum("npx,nx->np", seconds, normal), size, border.distance[span, place] - margin[span],
+                  border.slope[span, place], float(beside.max(initial=0.0)))
 
 
 def correspond(points: Array, frames: Frames, gate: float, nearest: Index | None = None,
@@ -121,7 +125,8 @@ def _heights(points: Array, row: Index, frames: Frames, gate: float) -> tuple[Ar
     bend = frames.form[row]
     sag = 0.5 * (bend[:, 0] * step[:, 0] ** 2 + 2 * bend[:, 1] * step[:, 0] * step[:, 1] + bend[:, 2] * step[:, 1] ** 2)
     height = np.einsum("nx,nx->n", frames.normal[row], offset) - sag
-    good = (frames.allowed[row] & (np.abs(height) < gate)
+    inside = frames.inside[row] + np.einsum("na,na->n", frames.slope[row], step)
+    good = ((inside > 0) & (np.abs(height) < gate)
             & (np.abs(step) < _WITHIN_CELL * frames.size[row]).all(axis=1))
     return height, good
 
@@ -141,9 +146,8 @@ def _rematch_wrong_side(points: Array, outward: Array, frames: Frames, nearest: 
     return result
 
 
-def trim_margin(lattices: Lattices, distance: Array, most: Array) -> Array:
-    """How far from the border a face holds points: ``most`` mm, (faces,), or half of its half width if that is less:
-    (spans,).
+def trim_margin(lattices: Lattices, distance: Array, most: float) -> Array:
+    """How far from the border a face holds points: ``most`` mm, or half of its half width if that is less: (spans,).
 
     Parameters
     ----------
@@ -152,4 +156,4 @@ def trim_margin(lattices: Lattices, distance: Array, most: Array) -> Array:
     """
     widest = np.zeros(len(lattices.faces))
     np.maximum.at(widest, lattices.face_of_span, distance.max(axis=1))
-    return np.minimum(most, 0.5 * widest)[lattices.face_of_span]
+    return np.minimum(most, np.maximum(0.5 * widest, _LEAST_WIDTH * most))[lattices.face_of_span]

@@ -9,7 +9,7 @@ from ....errors import RefusedError
 from ...arrays import Array, Index
 from ...robust_weights import quantile, robust_sigma
 from ..lengths import Lengths
-from ..surfaces import Lattices, SpanGrid, by_face
+from ..surfaces import BorderDistance, Lattices, SpanGrid, by_face
 from .correspondence import Correspondence, correspond, make_frames
 from .scan_statistics import ScanStatistics
 
@@ -20,6 +20,9 @@ _LARGE = 0.05
 """Typical distance over the size of the part from which the scan may be a table's for the most part (unit)."""
 _FARTHEST = 3.0
 """Over the typical distance: what is matched for the first look (unit)."""
+_BULK, _LEAST_EXTENT = 0.9, 0.02
+"""Twice this quantile of the distances of points from their median is the extent of a scan; over the size of the part,
+that of a scan that cannot tell how the part lies (unit: inches for millimetres are a twenty-fifth, metres less)."""
 _MOST_POINTS, _REACH = 0.9, 2.5
 """Quantile of the matched heights, and how many times as far some of the part may have moved (unit)."""
 _REACH_IN_NOISES = 6.0
@@ -42,10 +45,14 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
 
     Raises
     ------
-    RefusedError : the scan is farther from the part than the part is large
+    RefusedError : the scan is farther from the part than the part is large, or hardly extends along it
     """
     position = cells.nominal.position[cells.inside]
     size = 2 * float(np.linalg.norm(position - position.mean(axis=0), axis=1).max())
+    extent = 2 * quantile(np.linalg.norm(sample - np.median(sample, axis=0), axis=1), _BULK)
+    if extent < _LEAST_EXTENT * size:
+        raise RefusedError(f"The scan extends over only {extent:.2g} mm of a part of {size:.0f} mm: check its unit, or "
+                           "scan more of the part.")
     apart = np.asarray(cKDTree(position).query(sample, distance_upper_bound=size, workers=-1)[0])
     typical = quantile(apart, _TYPICAL)
     if not np.isfinite(typical):
@@ -54,8 +61,8 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
     if typical > _LARGE * size:
         back = cKDTree(sample).query(position, workers=-1)[0]
         typical = min(typical, float(np.quantile(back, _SEEN)))
-    frames = make_frames(lattices, cells, cells.nominal, np.zeros(len(cells.inside)),
-                         np.where(cells.inside, np.inf, -np.inf))
+    anywhere = BorderDistance(np.where(cells.inside, np.inf, -np.inf), np.zeros((*cells.inside.shape, 2)))
+    frames = make_frames(lattices, cells, cells.nominal, np.zeros(len(cells.inside)), anywhere)
     found = correspond(sample, frames, _FARTHEST * typical)
     beside = _noise_beside(sample[found.point], found, lattices.face_of_span[found.cell // cells.inside.shape[1]])
     noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)

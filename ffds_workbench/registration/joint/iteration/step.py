@@ -9,7 +9,7 @@ import numpy as np
 from ....errors import RefusedError
 from ...arrays import Array
 from ..body_field import body_rows
-from ..data import (CellHeights, Correspondence, Scatter, correspond, find_borders, find_near_edges, make_frames,
+from ..data import (CellHeights, Correspondence, Scatter, correspond, find_borders, find_near_edges,
                     median_heights, tukey_mean_heights)
 from ..linear import NormalEquations, solve_normal_equations
 from ..problem import Problem
@@ -58,7 +58,7 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
 def _match_scan(problem: Problem, stage: Stage, state: State, jet: Jet) -> Correspondence:
     """The scan points of the stage with their cells on the current shape."""
     points = problem.scan if stage.all_points else problem.sample
-    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
+    frames = problem.frames(jet)
     near = state.last_step < _MATCHES_LAST * problem.cell_side
     found = correspond(points, frames, stage.gate, state.cache.points.nearest if near else None,
                        state.cache.points.outward if stage.all_points else state.outward)

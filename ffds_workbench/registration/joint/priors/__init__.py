@@ -10,9 +10,9 @@ from .couplings import Couplings, make_couplings, pose_weight
 from .free_motions import FreeMotions, find_free_motions
 from .shared_edges import SharedEdgePlaces, directions
 from .sheet_pairs import find_pairs, parameters
-from .stiffness import COMPONENTS, GAUSS_PLACES, SLIDING, Stiffness, make_stiffness
+from .stiffness import COMPONENTS, SLIDING, Stiffness, make_stiffness
 from .trust_factors import PriorTrust
 
-__all__ = ["COMPONENTS", "GAUSS_PLACES", "SLIDING", "ConstantRows", "Couplings", "FreeMotions", "PriorTrust",
-           "SharedEdgePlaces", "Stiffness", "constant_rows", "contact_rows", "directions", "find_free_motions",
+__all__ = ["COMPONENTS", "SLIDING", "ConstantRows", "Couplings", "FreeMotions", "PriorTrust", "SharedEdgePlaces",
+           "Stiffness", "constant_rows", "contact_rows", "directions", "find_free_motions",
            "find_pairs", "make_couplings", "make_stiffness", "parameters", "pose_weight"]

@@ -11,12 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array
-from ..surfaces import Lattices, SpanGrid, normals
+from ...face_geometry import FaceGeometry
+from ..surfaces import Lattices, SpanGrid, covered_shares, make_span_grid, normals
 
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 """Nodes on [−1, 1] and their weights (theory: three integrate the fifth degree exactly)."""
-GAUSS_PLACES = (_GAUSS_NODES + 1) / 2
+_GAUSS_PLACES = (_GAUSS_NODES + 1) / 2
 """The same nodes on [0, 1] (theory)."""
+_GAUSS_BOUNDS = np.concatenate([[0.0], np.cumsum(0.5 * _GAUSS_WEIGHTS)])
+"""Bounds of the boxes of a span that the Gauss places stand for (theory: as wide as their weights)."""
 _TENSOR_PAIRS = ((0, 0), (0, 1), (1, 1))
 COMPONENTS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 """Components of a symmetric matrix of x, y and z."""
@@ -37,7 +40,7 @@ class Stiffness:
     Attributes
     ----------
     places : the Gauss places
-    area : (spans, k) integration weights in mm² within the trims
+    area : (spans, k) integration weights in mm²: what the trims leave of the boxes that the places stand for
     weight : (spans, k) the same with a little outside them
     stretched : (spans, k) ``weight`` over the square of the solid's size
     slope : (spans, k, 2, 16) rows that give d_;i
@@ -156,14 +159,17 @@ def _third_form(form: Array, metric: Array) -> Array:
                      b * (ie * b + jf * c) + c * (jf * b + ig * c)], axis=-1)
 
 
-def make_stiffness(lattices: Lattices, places: SpanGrid, body_size: Array) -> Stiffness:
+def make_stiffness(faces: tuple[FaceGeometry, ...], lattices: Lattices, body_size: Array) -> Stiffness:
     """Rows and weights at the Gauss places of the nominal faces.
 
     Parameters
     ----------
+    faces : of the part
     lattices : of all faces
     body_size : (spans,) size in mm of the solid that a span belongs to
     """
+    places = make_span_grid(faces, lattices, _GAUSS_PLACES)
+    covered = covered_shares(faces, lattices, _GAUSS_BOUNDS)
     tangents, seconds = places.nominal.tangents, places.nominal.seconds
     normal, area_element = normals(places.nominal, places.outward)
     to_frame = _frame(tangents)
@@ -179,8 +185,8 @@ def make_stiffness(lattices: Lattices, places: SpanGrid, body_size: Array) -> St
     curvature = np.einsum("skpq,skq->skp", tensor, form)
     span_weights = 0.25 * np.outer(_GAUSS_WEIGHTS, _GAUSS_WEIGHTS).ravel()
     weight = span_weights * area_element * lattices.step.prod(axis=1)[:, None]
-    everywhere = np.where(places.inside, 1.0, _OUTSIDE_WEIGHT) * weight
-    return Stiffness(places, np.where(places.inside, weight, 0.0), everywhere, everywhere / body_size[:, None] ** 2,
+    everywhere = np.maximum(covered, _OUTSIDE_WEIGHT) * weight
+    return Stiffness(places, covered * weight, everywhere, everywhere / body_size[:, None] ** 2,
                      slope, hessian, curvature, normal, np.matmul(to_frame, tangents))
 
 

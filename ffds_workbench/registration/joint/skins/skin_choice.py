@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..data import correspond, make_frames
+from ..data import correspond
 from ..iteration import State
 from ..prior_trust import prior_cost
 from ..problem import Problem
@@ -64,8 +64,7 @@ def _evidence(problem: Problem, state: State) -> tuple[float, float, int, float]
     """Evidence for a fit: its cost in chi-square units, how many points of the sample are matched, how many
     scan points lie on faces that are no skin, and the mean movement of all matched ones along the normals in mm."""
     jet = problem.cells.displaced(problem.lattices, state.control_points)
-    frames = make_frames(problem.lattices, problem.cells, jet, problem.margin, problem.distance)
-    found = correspond(problem.scan, frames, 4 * problem.lengths.start)
+    found = correspond(problem.scan, problem.frames(jet), 4 * problem.lengths.start)
     walls = problem.couplings.pairs.of_face[problem.face_of_cell[found.cell]] == 0
     normal = normals(problem.cells.nominal, problem.cells.outward)[0]
     moved = np.einsum("skx,skx->sk", jet.position - problem.cells.nominal.position, normal).ravel()[found.cell]

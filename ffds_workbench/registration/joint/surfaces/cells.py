@@ -11,18 +11,17 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
-from ...trims import boundary_points, inside_trims
-from .lattices import Lattices, products
+from ...trims import inside_trims
+from .lattices import FaceLattice, Lattices, products
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 """Orders in u and v of position, first and second derivatives, in the order of the arrays' second axis."""
-_BORDER_SPACING = 0.2467
-"""Of places along the border of a face, over the least distance that is asked for: it is right to 2 % (unit). No ratio
-of whole numbers: borders are whole numbers of cells long, and rounding must not choose how many places there are."""
+_BOX_SAMPLES = 4, 64
+"""Along a side of a box whose share within the trims is found; on a face that all miss, such as the narrow ring at the
+end of a tube, twice as many are tried, up to the second number (unit)."""
 _FACE_SEPARATION = 1e6
 """Distance in mm that parts faces in a tree (theory: farther than any part is large)."""
 _LOT = 512
@@ -138,6 +137,35 @@ def make_span_grid(faces: tuple[FaceGeometry, ...], lattices: Lattices, x: Array
     return SpanGrid(local, tables, scale, Jet(np.concatenate(jets)), np.concatenate(inside), outward)
 
 
+def covered_shares(faces: tuple[FaceGeometry, ...], lattices: Lattices, bounds: Array) -> Array:
+    """Share within the trims of the boxes between ``bounds`` (m + 1,), local coordinates, in every span: (spans, m²).
+
+    Parameters
+    ----------
+    faces : of the part
+    lattices : of all faces
+    """
+    shares = []
+    for face, lattice in zip(faces, lattices.faces, strict=True):
+        finest = _BOX_SAMPLES[0]
+        share = _covered(face, lattice, bounds, finest)
+        while not share.any() and finest < _BOX_SAMPLES[1]:
+            finest *= 2
+            share = _covered(face, lattice, bounds, finest)
+        shares.append(share)
+    return np.concatenate(shares)
+
+
+def _covered(face: FaceGeometry, lattice: FaceLattice, bounds: Array, samples: int) -> Array:
+    """Shares (spans, m²) of the boxes of one face, by so many ``samples`` along each side of a box."""
+    boxes, (nu, nv) = len(bounds) - 1, lattice.spans
+    x = (bounds[:-1, None] + np.diff(bounds)[:, None] * (np.arange(samples) + 0.5) / samples).ravel()
+    u, v = (corner + step * (np.arange(n)[:, None] + x).ravel()
+            for corner, step, n in zip(lattice.corner, lattice.step, lattice.spans, strict=True))
+    inside = _by_span(inside_trims(face, u, v), nu, nv, len(x)).reshape(-1, boxes, samples, boxes, samples)
+    return inside.mean(axis=(2, 4)).reshape(-1, boxes**2)
+
+
 def _by_span(grid: NDArray[Any], nu: int, nv: int, m: int) -> NDArray[Any]:
     rest = grid.shape[2:]
     blocks = grid.reshape(nu, m, nv, m, *rest).swapaxes(1, 2)
@@ -155,26 +183,3 @@ def cell_sides(lattices: Lattices, cells: SpanGrid) -> Array:
     sides = np.linalg.norm(cells.nominal.tangents, axis=3).mean(axis=1) * lattices.step / np.sqrt(len(cells.local))
     count = np.bincount(lattices.face_of_span)
     return np.asarray(np.bincount(lattices.face_of_span, sides.max(axis=1)) / count)
-
-
-def distance_to_trims(faces: tuple[FaceGeometry, ...], lattices: Lattices, cells: SpanGrid, least: Array,
-                      farthest: Array) -> Array:
-    """Distance in mm of each cell from the border of its face, at most the ``farthest`` that matters there, (faces,);
-    negative outside: (spans, k).
-
-    Parameters
-    ----------
-    faces : of the part
-    lattices : of all faces
-    cells : places on all faces, span by span
-    least : (faces,) distance in mm from which on cells are told from the border
-    """
-    distance = np.repeat(farthest[lattices.face_of_span, None], cells.inside.shape[1], axis=1)
-    for index, face in enumerate(faces):
-        border = boundary_points(face, _BORDER_SPACING * least[index])
-        if len(border):
-            spans, most = np.flatnonzero(lattices.face_of_span == index), farthest[index]
-            position = cells.nominal.position[spans].reshape(-1, 3)
-            near = cKDTree(border).query(position, distance_upper_bound=most)[0]
-            distance[spans] = np.minimum(near, most).reshape(len(spans), -1)
-    return np.where(cells.inside, distance, -distance)

@@ -44,7 +44,7 @@ def _faces(problem: Problem, state: State, displacements: Sequence[SplineSurface
     places, lattices = problem.stiffness.places, problem.lattices
     jet = places.displaced(lattices, state.control_points, 3)
     normal = normals(jet, places.outward)[0]
-    span, place = np.nonzero(places.inside)
+    span, place = np.nonzero(_assessed(problem))
     face = lattices.face_of_span[span]
     uv = parameters(lattices, places, span, place)
     gap_inside = seen.gap_of(face, places.nominal.position[span, place])
@@ -62,6 +62,14 @@ def _faces(problem: Problem, state: State, displacements: Sequence[SplineSurface
                                 float(noise[index]), _most(flags[own]), _rms(bands[own]), uv[own], bands[own],
                                 flags[own]))
     return tuple(result)
+
+
+def _assessed(problem: Problem) -> NDArray[np.bool_]:
+    """The Gauss places that tell of their face, (spans, k): those on it; of a narrow ring that holds none, those whose
+    boxes it crosses."""
+    inside, face = problem.stiffness.places.inside, problem.lattices.face_of_span
+    empty = np.bincount(face, inside.any(axis=1)) == 0
+    return inside | (empty[face, None] & (problem.stiffness.area > 0))
 
 
 def _border(problem: Problem) -> Array:
