@@ -19,7 +19,7 @@ from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from . import align, benchmark, prepare, seams, sensor, series, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
-from .morphing import field, morph
+from .morphing import compensate, field, morph
 from .terminal import Finished, ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
@@ -99,6 +99,7 @@ def command_line() -> argparse.ArgumentParser:
     sensor.add(commands)
     field.add(commands)
     morph.add(commands)
+    compensate.add(commands)
     seams.add(commands)
     weld.add(commands)
     series.add(commands)

@@ -39,18 +39,19 @@ def field_between(nominal: Workpiece, built: Workpiece) -> VectorField:
     ------
     InputError : the models have not the same faces, edges and vertices, or a face has other parameters
     """
-    _refuse_others(nominal, built)
+    refuse_other_topology(nominal, built)
     size = nominal.shape.BoundBox.DiagonalLength
     parts = []
     for own, other in zip(nominal.faces, built.faces, strict=True):
-        pair = _FacePair(own, other, size)
+        pair = FacePair(own, other, size)
         parts.append(_joined([pair.on_edges(nominal, built), pair.inside()]))
     numbers = np.repeat(np.arange(1, len(parts) + 1), [len(part.before) for part in parts])
     places = _joined(parts)
     return VectorField(places.before, places.after - places.before, faces=numbers)
 
 
-def _refuse_others(nominal: Workpiece, built: Workpiece) -> None:
+def refuse_other_topology(nominal: Workpiece, built: Workpiece) -> None:
+    """Refuse models that have not the same faces, edges and vertices (InputError)."""
     if nominal.topology == built.topology:
         return
     for kind in ("solids", "faces", "wires", "edges", "vertices"):
@@ -62,7 +63,7 @@ def _refuse_others(nominal: Workpiece, built: Workpiece) -> None:
                      "between a model and what was made from it.")
 
 
-class _FacePair:
+class FacePair:
     """A face before and after; ``size`` is that of the part in mm."""
 
     def __init__(self, before: WorkpieceFace, after: WorkpieceFace, size: float) -> None:
@@ -73,14 +74,18 @@ class _FacePair:
         self._spline = spline_surface(surface) if plain else None
 
     def _places(self, uv: Array) -> _Places:
-        return _Places(self.before.at(uv), self._moved(uv))
+        return _Places(self.before.at(uv), self.moved(uv))
 
-    def _moved(self, uv: Array) -> Array:
+    def moved(self, uv: Array) -> Array:
         """The as-built face at parameters (n, 2)."""
         if self._spline is None:
             return self.after.at(uv)
         u0, u1, v0, v1 = self._spline.range
         return self._spline(np.clip(uv, (u0, v0), (u1, v1)))
+
+    def refuse_other_parameters(self, nominal: Workpiece, built: Workpiece) -> None:
+        """Refuse a pair of faces that have the same parameters at different places. Raises as `on_edges` does."""
+        self.on_edges(nominal, built)
 
     def on_edges(self, nominal: Workpiece, built: Workpiece) -> _Places:
         """Along all edges of the face, their ends included.

@@ -2,7 +2,6 @@
 """The job ``morph``: a model deformed by a displacement field, with its topology kept."""
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,15 +14,11 @@ from ...brep.folding import refuse_folds
 from ...brep.model_files import Model
 from ...errors import InputError
 from ...fields import VectorField, Morphing, displacements
-from ...output import replacing
 from ...report import record, table
-from ...report.file_certificate import FileCertificate
 from ...report.stopwatch import Progress, Stopwatch
 from ...registration.arrays import Array
 from ..certified import CertifiedModel, certified
-from ..destinations import check_model_output, destinations
 from ..inputs import as_model
-from ..outputs import write_certified
 from .taking import as_field
 
 _LISTED = 200
@@ -108,28 +103,3 @@ def morph(model: Model | Part.Shape | str | Path | Any, field: VectorField | str
     built = certified(nominal, part, found.displacements, watch)
     return MorphedModel(built.model, built.nominal, built.structures, built.checks, watch, vectors, found, factor,
                         tolerance)
-
-
-def write_morphed(result: MorphedModel, out: str | Path, report: str | Path | None = None,
-                  inputs: Sequence[str | Path] = ()) -> FileCertificate:
-    """Write a deformed model, read back and certified, and after it its report.
-
-    Parameters
-    ----------
-    result : what `morph` gave
-    out, report : files: .step, .brep or .FCStd, and .json
-    inputs : files that were read and must not be written over
-
-    Raises
-    ------
-    InputError : a destination cannot be written or is one of ``inputs``
-    RefusedError : the disk is full, or the file would not hold the same model
-    """
-    check_model_output(out)
-    outputs = destinations((out, report), inputs)
-    certificate = write_certified(result, outputs[0])
-    if report is not None:
-        with replacing(outputs[1]) as temporary:
-            found = result.report
-            record.write(found | {"topology": found["topology"] | {"written": certificate.as_dict()}}, temporary[0])
-    return certificate

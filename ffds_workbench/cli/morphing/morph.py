@@ -43,7 +43,7 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     api.check_model_output(options.out, model)
     result = api.morph(model, field, options.factor, options.tolerance, options.ignore, progress)
     progress(f"Writing {options.out}")
-    written = api.write_morphed(result, options.out, options.report, inputs)
+    written = api.write_deformed(result, options.out, options.report, inputs)
     read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
     names = ", ".join(str(path) for path in (options.out, options.report) if path is not None)
     return f"{result.table()}\n\n{read_back}\n\nWritten: {names}"

@@ -35,7 +35,7 @@ _MOST_DIRECT = 2500
 _SOLVER_STEPS = 60
 """Steps of the solution of a finer level (unit: time; the next one takes on what is left)."""
 _FLAT = 1e-9
-"""Steps of the solution of a finer level (unit: time; the next one takes on the rest)."""
+"""Singular values of the places, over the largest, that count as none (unit: what rounding leaves)."""
 _NOISE_REACHED = 2.366
 """Median of the squares of what is left over the variances at which noise alone is left (theory: chi-square of three
 degrees of freedom); a few wild vectors do not shift it."""
