@@ -36,6 +36,7 @@ _HOMES = {
     "..scan.poses": ("read_poses",),
     "..scan.preparation": ("PreparationSettings", "PreparedScan"),
     "..scan.sensor": ("SensorSettings", "View"),
+    "..robot.cells": ("Cell",),
     "..series": ("Series", "SeriesLimits", "series"),
     "..seams.taught.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
@@ -55,6 +56,7 @@ _HOMES = {
     ".outputs": ("write", "write_deviation"),
     ".preparing": ("prepare", "write_prepared"),
     ".registering": ("Result", "register", "run"),
+    ".robots": ("plan_robot", "read_cell"),
     ".sensors": ("measure_sensor", "write_sensor"),
     ".simulating": ("simulate", "write_simulation"),
 }

@@ -38,6 +38,10 @@ class Trust:
         flags, bands = np.array([entry.flag for entry in known]), np.array([entry.band for entry in known])
         return flags[stations.places.stretch], bands[stations.places.stretch]
 
+    def band(self, name: str) -> float:
+        """Of a face or an edge in mm, NaN where the report has none."""
+        return self.entries.get(name, _UNKNOWN).band
+
     def _of(self, stretch: Stretch) -> _Entry:
         """The edge's own entry. Where parts meet, one face of the edge is covered: the joined faces count too."""
         faces = [self.entries.get(f"Face{face + 1}", _UNKNOWN) for face in stretch.faces]

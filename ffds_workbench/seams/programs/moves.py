@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -80,6 +81,9 @@ class SeamMoves:
     approach, retract : (4, 4) poses before the first and after the last station
     poses : (n, 4, 4) torch frames at the stations
     blend : radius in mm within which the robot may round the stations between the first and the last
+    way : (k, 4, 4) poses through the air to the approach
+    joints : (k + 1, 6) in degrees, as ``maker``'s controller counts them: of the way and the approach; None: unknown
+    arcs : stations (start, middle, end) between which the poses lie on a circle
     """
 
     name: str
@@ -88,11 +92,53 @@ class SeamMoves:
     poses: Array
     retract: Array
     blend: float
+    way: Array = field(default_factory=lambda: np.empty((0, 4, 4)))
+    joints: Array | None = None
+    maker: str = ""
+    arcs: tuple[tuple[int, int, int], ...] = ()
+
+    @property
+    def whole_way(self) -> Array:
+        """(k + n + 2, 4, 4), with the way through the air."""
+        return np.concatenate([self.way, self.all_poses])
+
+    def joints_for(self, maker: str) -> Array | None:
+        """The joints for a maker's controller; None where they are another's or unknown."""
+        return self.joints if maker == self.maker else None
+
+    @property
+    def sections(self) -> Iterator[tuple[int, int | None]]:
+        """How the first to the last station are passed: to which one, and by which on a circle (None: straight)."""
+        arcs = {start: (middle, end) for start, middle, end in self.arcs}
+        station = 0
+        while station < len(self.poses) - 1:
+            middle, station = arcs.get(station, (None, station + 1))
+            yield station, middle
 
     @property
     def all_poses(self) -> Array:
         """(n + 2, 4, 4), in the order in which the robot passes them."""
         return np.concatenate([self.approach[None], self.poses, self.retract[None]])
+
+
+@dataclass(frozen=True)
+class PlannedMoves:
+    """What a robot makes of seams.
+
+    Attributes
+    ----------
+    seams : those that are in the programs, in the order in which they are welded
+    settings : with its tool and base
+    record : the report's ``robot``
+    notes : what the user must know of the programs
+    refusal : why there is no program, where there is none
+    """
+
+    seams: tuple[SeamMoves, ...]
+    settings: RobotSettings
+    record: Mapping[str, Any]
+    notes: tuple[str, ...]
+    refusal: str
 
 
 def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
