@@ -45,6 +45,7 @@ _HOMES = {
     "..seams.settings": ("SeamSettings",),
     "..seams.output.writing": ("check_seam_outputs", "program_notes", "programmed_seams", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
+    ".datums": ("DatumAlignment", "align_on_datum_faces", "align_on_reference_points"),
     ".destinations": ("check_model_output", "check_outputs", "step_keeps_numbers"),
     ".deviating": ("Deviation", "deviation"),
     ".inputs": ("as_request", "read_model", "read_scan"),

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import Part
@@ -30,6 +30,15 @@ from .destinations import destinations
 from .inputs import as_cloud, as_model
 
 _TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
+
+
+class Placed(Protocol):
+    """A scan on its model, however it came there: its points, and its pose as a JSON record."""
+
+    @property
+    def scan(self) -> PointCloud: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True)
@@ -106,13 +115,13 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     return AlignedScan(replace(cloud.moved(found.T_model_scan, found.scale), unit=unit), found, report)
 
 
-def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,
+def write_alignment(aligned: Placed, out: str | Path, pose: str | Path | None = None,
                     inputs: Sequence[str | Path] = ()) -> None:
     """Write an aligned scan and its pose: both or none.
 
     Parameters
     ----------
-    aligned : what `align_scan` gave
+    aligned : what `align_scan` gave, or an alignment by datums
     out, pose : files, .ply and .json
     inputs : files that were read and must not be written over
 

@@ -48,6 +48,10 @@ def _text(field: VectorField) -> str:
 def read_field(path: str | Path) -> VectorField:
     """Read a field.
 
+    Parameters
+    ----------
+    path : of the file
+
     Raises
     ------
     InputError : the file cannot be read, lacks a column, or a row does not hold its numbers

@@ -81,7 +81,7 @@ class VectorField:
         return fit(self.positions, self.displacements, self.exactness, self.sigma)
 
     def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> VectorField:
-        """Only the places that an index or mask array tells."""
+        """Only the places that an index or mask array, ``which`` (n,), tells."""
         return VectorField(self.positions[which], self.displacements[which],
                      None if self.sigma is None else self.sigma[which],
                      None if self.faces is None else self.faces[which])

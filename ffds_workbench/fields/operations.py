@@ -35,12 +35,12 @@ class FieldMean:
 
 
 def total(first: VectorField, second: VectorField) -> VectorField:
-    """The sum: first the one, and with it the other, both told of the same nominal part."""
+    """The ``first`` field and with it the ``second``, both told of the same nominal part."""
     return _combined(first, second, 1.0)
 
 
 def difference(first: VectorField, second: VectorField) -> VectorField:
-    """The first without the second."""
+    """The ``first`` field without the ``second``."""
     return _combined(first, second, -1.0)
 
 
@@ -102,6 +102,7 @@ def smoothed(field: VectorField, length: float) -> VectorField:
 
     Parameters
     ----------
+    field : to be smoothed
     length : standard deviation of the weights in mm
 
     Raises
@@ -127,7 +128,7 @@ def smoothed(field: VectorField, length: float) -> VectorField:
 
 
 def limited(field: VectorField, largest: float) -> VectorField:
-    """Vectors longer than ``largest`` (mm) shortened to it (InputError if it is negative)."""
+    """Vectors of a ``field`` longer than ``largest`` (mm) shortened to it (InputError if it is negative)."""
     if not largest >= 0:
         raise InputError(f"A largest displacement of {largest:g} mm makes no sense: give one of 0 or more.")
     length = np.linalg.norm(field.displacements, axis=1, keepdims=True)

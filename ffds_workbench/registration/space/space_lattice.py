@@ -75,7 +75,7 @@ class SpaceField:
                           shape=(len(points), int(np.prod(shape))))
 
     def plus(self, more: Array) -> SpaceField:
-        """With control points (nx · ny · nz, 3) added."""
+        """With ``more``, (nx · ny · nz, 3), added to the control points."""
         return replace(self, control_points=self.control_points + more.reshape(self.control_points.shape))
 
     def halved(self) -> SpaceField:
