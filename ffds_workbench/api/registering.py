@@ -29,7 +29,7 @@ from .methods import Deformation, check_names, find_deformation
 
 @dataclass(frozen=True)
 class Result(CertifiedModel):
-    """An as-built model and how it came about. The deviations are measured when they are first asked for.
+    """An as-built model and how it came about. The deviations are measured at first use.
 
     Attributes
     ----------
@@ -130,7 +130,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
 
 def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: PointCloud | np.ndarray,
         progress: Progress | None = None) -> Result:
-    """Do what a request asks for. Raises as `register` does.
+    """Carry out a request. Raises as `register` does.
 
     Parameters
     ----------

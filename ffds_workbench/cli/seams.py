@@ -35,7 +35,8 @@ def _add_seams(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--robot", metavar="NAME|FILE.urdf", help="the robot that welds: whether it can, and how")
     add_robot_options(command)
     command.add_argument("--out", nargs="+", action="extend", type=Path, required=True, metavar="PATH",
-                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .FCStd (FreeCAD's robots)")
+                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), "
+                              ".as (Kawasaki), .FCStd (FreeCAD's robots)")
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the seams and their figures along the length")
     command.set_defaults(run=seams)

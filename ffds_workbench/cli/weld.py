@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command ``./ffds weld``: the whole way from a scan to the robot's program, with one page that shows each step."""
+"""The command ``./ffds weld``: from a scan to the robot's program, with one page that shows each step."""
 from __future__ import annotations
 
 import argparse
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from .. import api
 
 DIALECTS = {"kuka": "seams.src", "abb": "seams.mod", "ur": "seams.script"}
+"""Those that are written where nothing is said."""
+MORE_DIALECTS = {"fanuc": "seams.ls", "yaskawa": "seams.jbi", "kawasaki": "seams.as"}
+ALL_DIALECTS = DIALECTS | MORE_DIALECTS
+"""Those that are written for a robot, in which its cell gives tool and base."""
 PAGE = "report.html"
 
 
@@ -30,7 +34,7 @@ class Wanted:
     ----------
     edges, auto, chain : as for ``api.plan_seams``
     robot, settings, limits : for the programs, the stations and the verdict
-    dialects : of `DIALECTS`
+    dialects : of `ALL_DIALECTS`
     cell : the robot that welds, where it stands; None: none is known
     """
 
@@ -52,7 +56,8 @@ def add(commands: argparse._SubParsersAction) -> None:
     add_registration(command)
     seam_options.add_options(command)
     command.add_argument("--robot", nargs="+", default=[], metavar="NAME|FILE.urdf",
-                         help=f"the robot that welds, and in which dialects: {', '.join(DIALECTS)} (default: all)")
+                         help=f"the robot that welds, and in which dialects: {', '.join(ALL_DIALECTS)} (default: "
+                              "the first three, all for a robot)")
     seam_options.add_robot_options(command)
     command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for all that comes of it")
     command.set_defaults(run=weld)
@@ -80,10 +85,10 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
 
 
 def read_robot(words: Sequence[str]) -> tuple[str | None, list[str]]:
-    """The robot's name, None where there is none, and the dialects that are named, or all of them."""
-    dialects = [word for word in words if word in DIALECTS]
-    name = " ".join(word for word in words if word not in DIALECTS)
-    return name or None, dialects or list(DIALECTS)
+    """The robot's name, None where there is none, and the dialects that are named, or those that are usual."""
+    dialects = [word for word in words if word in ALL_DIALECTS]
+    name = " ".join(word for word in words if word not in ALL_DIALECTS)
+    return name or None, dialects or list(ALL_DIALECTS if name else DIALECTS)
 
 
 def make_folder(path: Path) -> Path:
@@ -108,7 +113,7 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
                           wanted.settings, wanted.limits)
     planned = None if wanted.cell is None else api.plan_robot(plan, wanted.cell, wanted.robot, report, progress)[1]
     weldable = bool(api.programmed_seams(plan, wanted.robot) if planned is None else planned.seams)
-    programs = [*(DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
+    programs = [*(ALL_DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
     outs = [folder / name for name in ("seams.csv", *programs)]
     written = api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs,
                               planned)

@@ -12,6 +12,7 @@ from ..seams.programs.angles import kuka_angles
 from ..seams.programs.arcs import arcs_of
 from ..seams.programs.moves import PlannedMoves, RobotSettings, SeamMoves, moves
 from .arms import Arm
+from .configurations import configurations
 from .job import PlannedSeam, RobotPlan
 
 
@@ -58,6 +59,8 @@ def _moves(seam: PlannedSeam, robot: RobotPlan, settings: RobotSettings) -> Seam
     plain = moves(seam.seam, settings)
     return replace(plain, approach=tips[-2], poses=seam.path.tips, retract=tips[-1], way=tips[:-2],
                    joints=controller_joints(robot.cell.arm, air), maker=robot.cell.arm.maker,
+                   configurations=configurations(robot.cell.arm, np.concatenate([
+                       air, seam.path.joints, seam.retract[None]])),
                    arcs=arcs_of(seam.path.tips))
 
 

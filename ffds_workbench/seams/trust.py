@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the registration knows of a seam: observed or guessed, and its 95 % band; from the registration's report."""
+"""How certain a seam is: observed or inferred, and its 95 % band, from the registration's report."""
 from __future__ import annotations
 
 import json

@@ -1789,8 +1789,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
-      <source>The registration did not converge (the last step was {0} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
-      <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
+      <source>The registration did not converge (the last step moved {0} by {1} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
+      <translation>Die Registrierung kam zu keinem Ende (der letzte Schritt bewegte {0} um {1} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
       <source>The registration leaves {0} off its scan points, by {1} mm where the noise is {2} mm: align the scan better, or register the face by itself (--face {3}).</source>
@@ -2163,6 +2163,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>What neighbouring points share reaches farther than {0} mm, too far for a scan of this size: the datum is not flat, or too small.</source>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
+    </message>
+    <message>
+      <source>Write .brep or .FCStd, which store the shape as it is.</source>
+      <translation>Schreiben Sie .brep oder .FCStd, die die Form speichern, wie sie ist.</translation>
     </message>
     <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads a batch of damaged files in a process that they may take along: models by commands, in forks of it."""
+"""Reads a batch of damaged files in a process that they may crash: models by commands, in forks of it."""
 from __future__ import annotations
 
 import contextlib

@@ -11,15 +11,19 @@ from ...report import record
 from ..clearance import blocked_ways
 from ..measured import MeasuredSeam
 from ..plan import SeamPlan
+from ..programs.fanuc import ls_text
+from ..programs.kawasaki import as_text
 from ..programs.krl import krl_texts
 from ..programs.moves import PlannedMoves, RobotSettings, SeamMoves, moves, program_name
 from ..programs.rapid import rapid_text
 from ..programs.urscript import urscript_text
+from ..programs.yaskawa import jbi_text
 from .picture import draw
 from .table import csv_text
 
-PROGRAMS = (".src", ".mod", ".script", ".fcstd")
+PROGRAMS = (".src", ".mod", ".script", ".ls", ".jbi", ".as", ".fcstd")
 FORMATS = (".csv", *PROGRAMS)
+_TEXTS = {".mod": rapid_text, ".script": urscript_text, ".ls": ls_text, ".jbi": jbi_text, ".as": as_text}
 _KRL_NAME_LIMIT = 24
 
 
@@ -47,7 +51,7 @@ def _targets(path: Path) -> list[Path]:
     """The files that an output consists of: a KRL program comes with its points."""
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"The output {path} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script "
-                         "(Universal Robots) or .FCStd.")
+                         "(Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.")
     return [path, path.with_suffix(".dat")] if path.suffix.lower() == ".src" else [path]
 
 
@@ -62,7 +66,7 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     Parameters
     ----------
     plan : the seams
-    outs : tables (.csv) and programs (.src, .mod, .script, .FCStd)
+    outs : tables (.csv) and programs (.src, .mod, .script, .ls, .jbi, .as, .FCStd)
     robot : its tool, base and motion; the defaults of `RobotSettings`
     report_path, picture : files: .json, and .png
     inputs : files that were read and must not be written over
@@ -145,6 +149,6 @@ def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequen
     elif suffix == ".src":
         texts = krl_texts(out.stem, paths, robot)
     else:
-        texts = (rapid_text if suffix == ".mod" else urscript_text)(out.stem, paths, robot),
+        texts = (_TEXTS[suffix](out.stem, paths, robot),)
     for target, text in zip(_targets(out), texts, strict=True):
         names[target].write_text(text, "utf-8")

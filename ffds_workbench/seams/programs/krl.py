@@ -35,8 +35,14 @@ def krl_texts(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) ->
                    f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}", f"LIN {points[0]}",
                    f"; seam {number} starts", f"$VEL.CP={_metres_per_second(settings.velocity)}",
                    f"$APO.CDIS={seam.blend:.3f}"]
-        source += [(f"LIN {points[to]}" if by is None else f"CIRC {points[by]},{points[to]}")
-                   + (" C_DIS" if to < len(points) - 1 else "") for to, by in seam.sections]
+        source += seam.lines_at(0, "kuka")
+        speed = settings.velocity
+        for to, by in seam.sections:
+            if speed != (speed := seam.velocity_to(to, settings)):
+                source.append(f"$VEL.CP={_metres_per_second(speed)}")
+            source.append((f"LIN {points[to]}" if by is None else f"CIRC {points[by]},{points[to]}")
+                          + (" C_DIS" if to < len(points) - 1 else ""))
+            source += seam.lines_at(to, "kuka")
         source += [f"; seam {number} ends", f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}", f"LIN XS{number}OUT"]
         names = [*ways, f"XS{number}IN", *points, f"XS{number}OUT"]
         texts = [f"DECL FRAME {point}={text}" for point, text in zip(names, pose_texts(seam.whole_way), strict=True)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The moves that weld a seam, in no dialect yet: down to it, along it, and away."""
+"""The moves that weld a seam, independent of any dialect: down to it, along it, and away."""
 from __future__ import annotations
 
 import math
@@ -84,6 +84,9 @@ class SeamMoves:
     way : (k, 4, 4) poses through the air to the approach
     joints : (k + 1, 6) in degrees, as ``maker``'s controller counts them: of the way and the approach; None: unknown
     arcs : stations (start, middle, end) between which the poses lie on a circle
+    configurations : (k + n + 2,) of the arm, as ``maker``'s controller writes them; empty where it writes none
+    velocities : (n − 1,) in mm/s, to each station from the one before; None: the settings' throughout
+    statements : of the process, by dialect and station: what is written when that station is reached
     """
 
     name: str
@@ -96,6 +99,9 @@ class SeamMoves:
     joints: Array | None = None
     maker: str = ""
     arcs: tuple[tuple[int, int, int], ...] = ()
+    configurations: tuple[str, ...] = ()
+    velocities: Array | None = None
+    statements: Mapping[str, Mapping[int, Sequence[str]]] = field(default_factory=dict)
 
     @property
     def whole_way(self) -> Array:
@@ -105,6 +111,14 @@ class SeamMoves:
     def joints_for(self, maker: str) -> Array | None:
         """The joints for a maker's controller; None where they are another's or unknown."""
         return self.joints if maker == self.maker else None
+
+    def lines_at(self, station: int, dialect: str, form: str = "{}") -> list[str]:
+        """The process's statements at a station, each put into ``form``."""
+        return [form.format(line) for line in self.statements.get(dialect, {}).get(station, ())]
+
+    def velocity_to(self, station: int, settings: RobotSettings) -> float:
+        """In mm/s."""
+        return settings.velocity if self.velocities is None else float(self.velocities[station - 1])
 
     @property
     def sections(self) -> Iterator[tuple[int, int | None]]:
@@ -157,6 +171,19 @@ def _above(pose: Array, distance: float) -> Array:
     moved = pose.copy()
     moved[:3, 3] -= distance * pose[:3, 2]
     return moved
+
+
+def table_number(maker: str, what: str, choice: FrameChoice) -> int:
+    """The number of a tool or base in a controller's table: the given one, or 1 where a pose must be put there.
+
+    Raises
+    ------
+    InputError : it is a name
+    """
+    if isinstance(choice, str):
+        raise InputError(f"{maker} controllers number their {what}s: give a number or X,Y,Z,A,B,C instead of "
+                         f"'{choice}'.")
+    return choice if isinstance(choice, int) else 1
 
 
 def program_name(stem: str, limit: int) -> str:

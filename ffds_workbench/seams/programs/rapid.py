@@ -55,9 +55,13 @@ def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -
         body += [f"    ! {plain(seam.title)}", *(f"    {move} {way},vFfdsAir,fine,{at}" for way in ways),
                  f"    {move} pS{number}_in,vFfdsAir,fine,{at}", f"    MoveL {points[0]},vFfdsAir,fine,{at}",
                  f"    ! seam {number} starts"]
-        body += [("    MoveL " if by is None else f"    MoveC {points[by]},")
-                 + f"{points[to]},vFfdsWeld,{zone if to < len(points) - 1 else 'fine'},{at}"
-                 for to, by in seam.sections]
+        body += seam.lines_at(0, "abb", "    {}")
+        for to, by in seam.sections:
+            speed = seam.velocity_to(to, settings)
+            data = "vFfdsWeld" if speed == settings.velocity else f"[{speed:g},100,1000,1000]"
+            body += [("    MoveL " if by is None else f"    MoveC {points[by]},")
+                     + f"{points[to]},{data},{zone if to < len(points) - 1 else 'fine'},{at}",
+                     *seam.lines_at(to, "abb", "    {}")]
         body += [f"    ! seam {number} ends",
                  f"    MoveL pS{number}_out,vFfdsAir,fine,{at}"]
     lines += [f"  PROC {name}()", "    ConfJ\\Off;", "    ConfL\\Off;", *body, "  ENDPROC", "ENDMODULE"]

@@ -30,7 +30,7 @@ def urscript_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings
              "  # Torch frame: z out of the nozzle into the joint, x along the travel.",
              "  # Poses are in the frame of the model."]
     lines += [f"  set_tcp({tool})"] * (tool is not None) + [f"  model_frame = {base}"] * (base is not None)
-    air, weld = (f"a={_ACCELERATION:g}, v={velocity / 1000.0:.6g}" for velocity in (AIR_VELOCITY, settings.velocity))
+    air = _speed(AIR_VELOCITY)
     for number, seam in enumerate(seams, 1):
         texts = [_in_model(pose, base) for pose in pose_texts(seam.whole_way)]
         places, (*poses, retract) = texts[: len(seam.way) + 1], texts[len(seam.way) + 1 :]
@@ -38,8 +38,12 @@ def urscript_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings
             places = [f"[{','.join(numbers(np.radians(row), 8))}]" for row in joints]
         lines += [f"  # {plain(seam.title)}", *(f"  movej({place}, a={_ACCELERATION:g}, v=0.3)" for place in places),
                   f"  movel({poses[0]}, {air})", f"  # seam {number} starts"]
-        lines += [(f"  movel({poses[to]}, {weld}" if by is None else f"  movec({poses[by]}, {poses[to]}, {weld}")
-                  + (f", r={seam.blend / 1000.0:.6f})" if to < len(poses) - 1 else ")") for to, by in seam.sections]
+        lines += seam.lines_at(0, "ur", "  {}")
+        for to, by in seam.sections:
+            at = _speed(seam.velocity_to(to, settings))
+            lines += [(f"  movel({poses[to]}, {at}" if by is None else f"  movec({poses[by]}, {poses[to]}, {at}")
+                      + (f", r={seam.blend / 1000.0:.6f})" if to < len(poses) - 1 else ")"),
+                      *seam.lines_at(to, "ur", "  {}")]
         lines += [f"  # seam {number} ends", f"  movel({retract}, {air})"]
     return "\n".join([*lines, "end", f"{name}()"]) + "\n"
 
@@ -49,6 +53,10 @@ def pose_texts(poses: Array) -> list[str]:
     vectors = ur_rotation_vectors(poses[:, :3, :3])
     return [f"p[{','.join([*numbers(pose[:3, 3] / 1000.0, 8), *numbers(turn, 8)])}]"
             for pose, turn in zip(poses, vectors, strict=True)]
+
+
+def _speed(velocity: float) -> str:
+    return f"a={_ACCELERATION:g}, v={velocity / 1000.0:.6g}"
 
 
 def _in_model(pose: str, base: str | None) -> str:
