@@ -53,6 +53,7 @@ _HOMES = {
     ".methods": ("OtherSideError",),
     ".morphing.applying": ("MorphedModel", "morph"),
     ".morphing.compensating": ("CompensatedModel", "compensate"),
+    ".morphing.measuring": ("field_of_points",),
     ".morphing.taking": ("as_field", "field_of_meshes", "field_of_models", "field_of_result", "save_field"),
     ".morphing.writing": ("write_deformed",),
     ".outputs": ("write", "write_deviation"),

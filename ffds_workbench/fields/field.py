@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ..errors import InputError
 from ..registration.arrays import Array
@@ -15,6 +16,10 @@ from ..registration.space import SpaceField, fit
 _EXACTNESS, _LEAST_EXACTNESS = 5e-7, 2e-5
 """What a field leaves of the vectors that it goes through: over the size of the part, and in mm (unit: twice what a
 rebuilt face leaves of its displacement)."""
+_AROUND = 13
+"""Vectors around one, itself among them, that tell what it should be like."""
+_MEDIAN_LENGTH = 1.538
+"""Median length of a vector of three normal components of standard deviation 1 (theory: chi of three)."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +83,21 @@ class VectorField:
     @cached_property
     def in_space(self) -> SpaceField:
         """The smooth field through all vectors, or past them as far as their sigma lets them stand apart."""
-        return fit(self.positions, self.displacements, self.exactness, self.sigma)
+        noise = None if self.sigma is None else np.minimum(self.sigma, self._scatter())
+        return fit(self.positions, self.displacements, self.exactness, noise)
+
+    def _scatter(self) -> float:
+        """Standard deviation in mm by which neighbouring vectors differ: the rest of their sigma they share.
+
+        Of each vector, what a plane through those around it leaves; robustly, over all.
+        """
+        if len(self) < 2 * _AROUND:
+            return 0.0
+        near = cKDTree(self.positions).query(self.positions, _AROUND)[1]
+        rows = np.concatenate([np.ones((*near.shape, 1)), self.positions[near] - self.positions[:, None]], axis=2)
+        told = np.linalg.pinv(rows[:, 1:], rcond=1e-6) @ self.displacements[near[:, 1:]]
+        left = np.linalg.norm(self.displacements - told[:, 0], axis=1)
+        return float(np.median(left) / _MEDIAN_LENGTH)
 
     def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> VectorField:
         """Only the places that an index or mask array, ``which`` (n,), tells."""
