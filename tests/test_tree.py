@@ -14,8 +14,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "ffds_workbench"
 RANK = {"__init__": 0, "errors": 0, "compat": 0, "find_freecad": 0, "output": 0, "registration": 1, "scan": 2,
-        "brep": 3, "fields": 4, "seams": 4, "report": 4, "robot": 4.5, "api": 5, "series": 6, "benchmark": 6, "cli": 7,
-        "objects": 7, "gui": 8}
+        "brep": 3, "fields": 4,
+        "seams": 4, "report": 4, "inspection": 4.2, "robot": 4.5, "api": 5, "series": 6, "serve": 6.5,
+        "benchmark": 6.5, "cli": 7, "objects": 7, "gui": 8}
 GUI_ONLY = {"FreeCADGui", "PySide", "PySide2", "PySide6", "pivy"}
 NETWORK = {"socket", "ssl", "urllib", "http", "ftplib", "smtplib", "requests", "webbrowser"}
 FREECAD = {"FreeCAD", "Part", "Points", "Mesh", "Import"}
@@ -203,3 +204,11 @@ def test_numbers_say_where_they_come_from(path):
     silent = [text.splitlines()[node.lineno - 1] for body, in_class in rooms for number, node in enumerate(body)
               if _is_constant(node, in_class) and not ORIGIN.search(_said_of(text.splitlines(), body, number))]
     assert not silent, "say theory (and its source), unit (a physical assumption) or calibrated (by what, on what)"
+
+
+def test_robust_factors_stand_once():
+    """Of the median absolute deviation and of Tukey's cut-off; who needs one takes it from `robust_weights`."""
+    homes = {path.stem for path in MODULES for node in ast.walk(ast.parse(path.read_text("utf-8")))
+             if isinstance(node, ast.Constant) and isinstance(node.value, float)
+             and (abs(node.value - 1.4826) < 2e-4 or abs(node.value - 4.685) < 1e-3 or abs(node.value - 0.6745) < 1e-4)}
+    assert homes == {"robust_weights"}

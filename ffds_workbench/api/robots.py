@@ -10,6 +10,7 @@ from ..robot.cells import Cell
 from ..robot.cells import read_cell as _read_cell
 from ..robot.job import Progress, RobotPlan
 from ..robot.job import plan_robot as _plan_robot
+from ..robot.process import read_process
 from ..robot.programs import planned_moves
 from ..seams.plan import SeamPlan
 from ..seams.programs.moves import PlannedMoves, RobotSettings
@@ -31,8 +32,8 @@ def read_cell(robot: str | Path | None = None, path: str | Path | None = None) -
 
 
 def plan_robot(plan: SeamPlan, cell: Cell, settings: RobotSettings | None = None,
-               bands: str | Path | Mapping[str, Any] | None = None, progress: Progress = lambda text: None
-               ) -> tuple[RobotPlan, PlannedMoves]:
+               bands: str | Path | Mapping[str, Any] | None = None, process: str | Path | None = None,
+               searching: bool = True, progress: Progress = lambda text: None) -> tuple[RobotPlan, PlannedMoves]:
     """What a robot makes of the seams of a plan, and what of it comes into programs (for `write_seams`).
 
     Parameters
@@ -41,8 +42,11 @@ def plan_robot(plan: SeamPlan, cell: Cell, settings: RobotSettings | None = None
     cell : of `read_cell`
     settings : velocity, approach, and which seams are kept
     bands : the registration's report or its JSON file: the part is taken to stand out by its bands
+    process : the file of speeds, jobs and weaves by joint and gap
+    searching : plan touches where a seam's band is wider than the process allows
     progress : told what is being done
     """
     settings = settings or RobotSettings()
-    found = _plan_robot(plan, cell, settings, bands, progress)
+    found = _plan_robot(plan, cell, settings, bands, None if process is None else read_process(Path(process)),
+                        searching, progress)
     return found, planned_moves(plan, found, settings)

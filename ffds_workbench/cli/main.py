@@ -17,7 +17,7 @@ from typing import NoReturn, TextIO
 from .. import RESOURCES, __version__
 from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
-from . import align, benchmark, prepare, seams, sensor, series, simulate, weld
+from . import align, benchmark, inspect, prepare, seams, sensor, series, serve, simulate, weld
 from .inputs import add_inputs, add_registration, read_inputs, read_request
 from .morphing import compensate, field, morph
 from .terminal import Finished, ProgressLine, quiet_libraries
@@ -103,6 +103,8 @@ def command_line() -> argparse.ArgumentParser:
     seams.add(commands)
     weld.add(commands)
     series.add(commands)
+    inspect.add(commands)
+    serve.add(commands)
     _add_demo(commands)
     benchmark.add(commands)
     return parser

@@ -36,6 +36,7 @@ class Wanted:
     robot, settings, limits : for the programs, the stations and the verdict
     dialects : of `ALL_DIALECTS`
     cell : the robot that welds, where it stands; None: none is known
+    process, searching : its process, and whether touches are planned
     """
 
     edges: Sequence[str]
@@ -46,6 +47,8 @@ class Wanted:
     limits: api.SeamLimits
     dialects: Sequence[str] = tuple(DIALECTS)
     cell: api.Cell | None = None
+    process: Path | None = None
+    searching: bool = True
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -75,11 +78,12 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
     name, dialects = read_robot(options.robot)
     cell = seam_options.robot_cell(name, options)
     folder = make_folder(options.out)
-    wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, dialects, cell)
+    wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, dialects, cell,
+                    options.process, options.searches == "auto")
     model, scan = read_inputs(options, progress)
     as_built = "as_built.step" if api.step_keeps_numbers(model) else "as_built.FCStd"
     result = api.run(request, model, scan, progress)
-    inputs = [options.model, *options.scan, *([options.cell] if options.cell else [])]
+    inputs = [options.model, *options.scan, *(path for path in (options.cell, options.process) if path)]
     text = write_chain(result, wanted, folder, as_built, inputs, progress)
     return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
 
@@ -111,7 +115,8 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     progress("Finding and measuring the seams")
     plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report,
                           wanted.settings, wanted.limits)
-    planned = None if wanted.cell is None else api.plan_robot(plan, wanted.cell, wanted.robot, report, progress)[1]
+    planned = None if wanted.cell is None else api.plan_robot(
+        plan, wanted.cell, wanted.robot, report, wanted.process, wanted.searching, progress)[1]
     weldable = bool(api.programmed_seams(plan, wanted.robot) if planned is None else planned.seams)
     programs = [*(ALL_DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
     outs = [folder / name for name in ("seams.csv", *programs)]

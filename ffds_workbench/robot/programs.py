@@ -2,6 +2,7 @@
 """What comes into the programs of a robot's plan: seams with the poses that were found, the tool and the base."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +11,11 @@ from ..registration.arrays import Array
 from ..seams.plan import SeamPlan
 from ..seams.programs.angles import kuka_angles
 from ..seams.programs.arcs import arcs_of
-from ..seams.programs.moves import PlannedMoves, RobotSettings, SeamMoves, moves
+from ..seams.programs.moves import BEFORE, PlannedMoves, RobotSettings, SeamMoves, moves
 from .arms import Arm
 from .configurations import configurations
 from .job import PlannedSeam, RobotPlan
+from .process import search_lines, statements, usual_templates
 
 
 def planned_moves(plan: SeamPlan, robot: RobotPlan, settings: RobotSettings) -> PlannedMoves:
@@ -30,10 +32,14 @@ def planned_moves(plan: SeamPlan, robot: RobotPlan, settings: RobotSettings) -> 
     settings = replace(settings, tool=_frame(robot.cell.torch.tcp) if settings.tool is None else settings.tool,
                        base=_frame(_model_in_world(robot)) if settings.base is None else settings.base)
     within = [not seam.seam.exceeded(plan.limits) for seam in robot.seams]
-    found = [_moves(robot.seams[number], robot, settings) for number in robot.order
+    found = [_moves(robot.seams[number], part, robot, settings) for number, part in robot.order
              if within[number] or settings.keep_failing]
-    failing = [seam for number, seam in enumerate(robot.seams) if number not in robot.order]
+    failing = [seam for seam in robot.seams if not seam.pieces]
     notes = [seam.line() for seam in robot.seams]
+    notes += [f"{seam.seam.name} is not welded from station {first + 1} to {last + 1}: {said}." for seam in robot.seams
+              if seam.welding is not None and seam.pieces for first, last, said in seam.welding.refused]
+    notes += [f"{seam.seam.name} is less sure than it must be: {len(seam.searches)} touches come before it."
+              for seam in robot.seams if seam.searches]
     if failing and settings.keep_failing:
         found += [moves(seam.seam, settings) for seam in failing]
         notes.append(f"The {arm.name} cannot weld them, and they are in the programs all the same: {_names(failing)}.")
@@ -52,16 +58,34 @@ def _names(seams: list[PlannedSeam]) -> str:
     return ", ".join(seam.seam.name for seam in seams)
 
 
-def _moves(seam: PlannedSeam, robot: RobotPlan, settings: RobotSettings) -> SeamMoves:
-    assert seam.approach is not None and seam.retract is not None and seam.way is not None
-    air = np.concatenate([seam.way, seam.approach[None]])
-    tips = robot.moving.tips(np.concatenate([air, seam.retract[None]]))
-    plain = moves(seam.seam, settings)
-    return replace(plain, approach=tips[-2], poses=seam.path.tips, retract=tips[-1], way=tips[:-2],
-                   joints=controller_joints(robot.cell.arm, air), maker=robot.cell.arm.maker,
-                   configurations=configurations(robot.cell.arm, np.concatenate([
-                       air, seam.path.joints, seam.retract[None]])),
-                   arcs=arcs_of(seam.path.tips))
+def _moves(seam: PlannedSeam, part: int, robot: RobotPlan, settings: RobotSettings) -> SeamMoves:
+    piece, arm = seam.pieces[part], robot.cell.arm
+    stations = slice(piece.first, piece.last + 1)
+    air = np.concatenate([piece.way, piece.approach[None]])
+    tips = robot.moving.tips(np.concatenate([air, piece.retract[None]]))
+    found = replace(moves(seam.seam, settings), approach=tips[-2], poses=seam.path.tips[stations], retract=tips[-1],
+                    way=tips[:-2], joints=controller_joints(arm, air), maker=arm.maker,
+                    configurations=configurations(arm, np.concatenate([
+                        air, seam.path.joints[stations], piece.retract[None]])))
+    breaks: set[int] = set()
+    if robot.process is not None and seam.welding is not None:
+        welding = seam.welding
+        speeds = [welding.rows[row].speed for row in welding.row[piece.first : piece.last].tolist()]
+        said = statements(robot.process, welding, piece.first, piece.last)
+        breaks = {station for lines in said.values() for station in lines}
+        found = replace(found, velocities=np.array(speeds), statements=said)
+    if seam.searches and not part:
+        found = replace(found, statements=_with_searches(seam, robot, found.statements))
+    return replace(found, arcs=arcs_of(found.poses, breaks))
+
+
+def _with_searches(seam: PlannedSeam, robot: RobotPlan, said: Mapping[str, Mapping[int, Sequence[str]]]
+                   ) -> dict[str, dict[int, Sequence[str]]]:
+    """The statements, with those of the touches before them."""
+    templates = usual_templates() if robot.process is None else robot.process.templates
+    return {dialect: {**said.get(dialect, {}), BEFORE: [line for number, search in enumerate(seam.searches, 1)
+                                                        for line in search_lines(dialect, lines, number, search)]}
+            for dialect, lines in templates.items()}
 
 
 def controller_joints(arm: Arm, joints: Array) -> Array:

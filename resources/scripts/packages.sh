@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Sourced by setup.sh and test.sh: which Debian packages are needed, and how they are installed.
 
-run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed"
-test_packages="python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth"
+run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed python3-fastapi python3-uvicorn"
+test_packages="python3-httpx python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth"
 
 # The package that tests windows, of the Qt that FreeCAD is built with: 5 in Debian 12 and 13, 6 later.
 qt_test_package() {

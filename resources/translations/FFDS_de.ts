@@ -726,7 +726,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan liegt nicht auf {name}: Prüfen Sie Einheit und Ausrichtung, oder wählen Sie eine andere Fläche.</translation>
     </message>
     <message>
-      <source>The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the scan, or undo and align it by three points.</source>
+      <source>The scan fits the part equally well in {count} poses, and nothing shows which one is right. Look at the scan, or undo and align it by three points.</source>
       <translation>Der Scan passt in {count} Lagen gleich gut auf das Teil, und nichts verrät, welche richtig ist. Sehen Sie sich den Scan an, oder machen Sie es rückgängig und richten Sie ihn mit drei Punkten aus.</translation>
     </message>
     <message>
@@ -1142,6 +1142,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>FFDS_ShowDocumentation</name>
+    <message>
+      <source>Documentation</source>
+      <translation>Dokumentation</translation>
+    </message>
+    <message>
+      <source>Opens the documentation: the web pages that resources/scripts/docs.sh has built, or the texts that they are built from.</source>
+      <translation>Öffnet die Dokumentation: die Webseiten, die resources/scripts/docs.sh gebaut hat, oder die Texte, aus denen sie gebaut werden.</translation>
+    </message>
+    <message>
+      <source>Tutorials, how-tos, what is refused and what to do, and how sure a result is</source>
+      <translation>Einführungen, Anleitungen, was abgelehnt wird und was zu tun ist, und wie sicher ein Ergebnis ist</translation>
+    </message>
+  </context>
+  <context>
     <name>FFDS_ShowLattice</name>
     <message>
       <source>Draw the control lattices of the selected as-built part, before and after, or hide them</source>
@@ -1265,6 +1280,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Sentence</name>
     <message>
+      <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
+      <translation>	W = {0} deg,	P = {1} deg,	R = {2} deg</translation>
+    </message>
+    <message>
+      <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
+      <translation>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</translation>
+    </message>
+    <message>
       <source> (its {0} rows are not finite numbers)</source>
       <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
     </message>
@@ -1327,6 +1350,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
       <translation>ABB-Steuerungen benennen Werkzeuge und Basen ({0}): Geben Sie einen Namen oder X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>AS names its frames: give a name or X,Y,Z,A,B,C instead of {0}.</source>
+      <translation>AS benennt seine Koordinatensysteme: Geben Sie einen Namen oder X,Y,Z,A,B,C statt {0} an.</translation>
     </message>
     <message>
       <source>Aligning the scan</source>
@@ -1709,8 +1736,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Ursprung der Scankoordinaten liegt innerhalb des Scans, dort stand also kein Sensor: Geben Sie an, wo er stand (--view X,Y,Z).</translation>
     </message>
     <message>
-      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
-      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) oder .FCStd.</translation>
+      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.</source>
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) oder .FCStd.</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
@@ -1783,6 +1810,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The program has no poses with X, Y and Z.</source>
       <translation>Das Programm hat keine Lagen mit X, Y und Z.</translation>
+    </message>
+    <message>
+      <source>The program {0} cannot be read: {1}.</source>
+      <translation>Das Programm {0} kann nicht gelesen werden: {1}.</translation>
+    </message>
+    <message>
+      <source>The program {0} is in a language that is not read here: use .ls, .jbi or .as.</source>
+      <translation>Das Programm {0} ist in einer Sprache, die hier nicht gelesen wird: Nehmen Sie .ls, .jbi oder .as.</translation>
+    </message>
+    <message>
+      <source>The program {0} moves to {1}, which it does not have.</source>
+      <translation>Das Programm {0} fährt nach {1}, das darin fehlt.</translation>
     </message>
     <message>
       <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
@@ -2275,6 +2314,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
       <translation>{0} kann nicht zugleich verformt und fixiert werden: Streichen Sie die Fläche aus einer der beiden Listen.</translation>
+    </message>
+    <message>
+      <source>{0} controllers number their {1}s: give a number or X,Y,Z,A,B,C instead of '{2}'.</source>
+      <translation>Steuerungen von {0} nummerieren ihre {1}s: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{2}“ an.</translation>
     </message>
     <message>
       <source>{0} does not have the faces and edges of {1}: recompute it first.</source>

@@ -78,6 +78,17 @@ def test_a_cell_counts(blocks, tmp_path, capfd):
     assert "cannot be read" in capfd.readouterr().err
 
 
+def test_a_process_counts_and_needs_a_robot(blocks, tmp_path, capfd):
+    rows = [{"gap": 0.5, "speed": 7, "job": 3}]
+    (tmp_path / "process.json").write_text(json.dumps({"tables": [{"rows": rows}]}))
+    assert run(blocks[:1], "--process", "process.json", "--searches", "none", "--out", "a.ls", "a.jbi", "a.as") == 0
+    assert "Arc Start[3]" in (tmp_path / "a.ls").read_text() and "7mm/sec" in (tmp_path / "a.ls").read_text()
+    assert "ARCON ASF#(3)" in (tmp_path / "a.jbi").read_text()
+    assert "SPEED 7 MM/S ALWAYS" in (tmp_path / "a.as").read_text()
+    assert main(["seams", "part.step", "--edge", *blocks[:1], "--process", "process.json", "--out", "b.ls"]) == 2
+    assert "needs a robot" in capfd.readouterr().err
+
+
 def test_the_pipe_s_seam_in_one_pass(tmp_path, monkeypatch):
     """Around a pipe between two flats: with a free yaw and a lean it is one pass, with a fixed yaw it is not."""
     part = SHARED / "weld_pipe_on_angle" / "nominal.step"

@@ -50,8 +50,9 @@ def finished(plate, scans, tmp_path_factory) -> Path:
     return out
 
 
-def test_every_part_has_ended_once(finished):
+def test_every_part_has_ended_once(finished, check_report):
     record = json.loads((finished / "series.json").read_text("utf-8"))
+    check_report(record)
     assert sorted(Path(part["scan"]).name for part in record["parts"]) == [f"part{k}.xyz" for k in range(5)]
     assert {part["name"]: part["exit"] for part in record["parts"]} == {"part0": 2} | dict.fromkeys(
         ["part1", "part2", "part3", "part4"], 0)

@@ -5,9 +5,10 @@
 """
 from .course import Course
 from .failure import Failure
-from .leaving import leaving
+from .leaving import leaving, within_branch
 from .remedies import remedy
 from .seam_path import SeamPath, plan_path, replay
 from .transfers import transfer
 
-__all__ = ["Course", "Failure", "SeamPath", "leaving", "plan_path", "remedy", "replay", "transfer"]
+__all__ = ["Course", "Failure", "SeamPath", "leaving", "plan_path", "remedy", "replay", "transfer",
+           "within_branch"]

@@ -2,6 +2,8 @@
 """Where poses lie on circles: fewer points for the controller, and a smoother path."""
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
@@ -15,11 +17,17 @@ _WIDEST, _FEWEST_STEPS = np.radians(170.0), 4
 """Controllers take no arcs of half a turn and more; fewer steps are as well told as lines."""
 
 
-def arcs_of(poses: Array) -> tuple[tuple[int, int, int], ...]:
-    """Stations (start, middle, end) of the longest arcs, one after the other, along poses (n, 4, 4)."""
+def arcs_of(poses: Array, breaks: Collection[int] = ()) -> tuple[tuple[int, int, int], ...]:
+    """Stations (start, middle, end) of the longest arcs, one after the other, along poses (n, 4, 4).
+
+    Parameters
+    ----------
+    breaks : stations at which something is written, so that no arc may pass them
+    """
     arcs, start = [], 0
     while start < len(poses) - _FEWEST_STEPS:
-        end = _longest(poses, start)
+        until = min((station for station in breaks if station > start), default=len(poses) - 1)
+        end = _longest(poses[: until + 1], start)
         if end is None:
             start += 1
         else:

@@ -11,7 +11,8 @@ import numpy as np
 
 from ...registration.arrays import Array
 from .angles import kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name, table_number
+from .moves import (AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name,
+                    table_number)
 
 NAME_LIMIT = 32
 USUAL_CONFIGURATION = "N U T, 0, 0, 0"
@@ -56,6 +57,7 @@ def ls_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> s
         start = first + len(seam.way) + 1
         last = start + len(seam.poses) - 1
         lines += [f"  !{plain(seam.title)[:28]} ;", *(f"J P[{i}] 20% FINE    ;" for i in range(first, start)),
+                  *seam.lines_at(BEFORE, "fanuc", "  {} ;"),
                   f"L P[{start}] {AIR_VELOCITY:g}mm/sec FINE    ;", f"  !seam {number} starts ;",
                   *seam.lines_at(0, "fanuc", "  {} ;")]
         for to, by in seam.sections:

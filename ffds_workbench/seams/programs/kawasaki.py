@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import from_kuka_angles, kawasaki_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 15
 
@@ -34,7 +34,8 @@ def as_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> s
             joints += [f"#{name} {' '.join(numbers(row, 5))}" for name, row in zip(ways, known, strict=True)]
             ways = [f"#{name}" for name in ways]
         lines += [f"  ; {plain(seam.title)}", "  SPEED 20 ALWAYS", *(f"  JMOVE {way}" for way in ways),
-                  f"  SPEED {AIR_VELOCITY:g} MM/S ALWAYS", f"  LMOVE {points[0]}", f"  ; seam {number} starts",
+                  *seam.lines_at(BEFORE, "kawasaki", "  {}"), f"  SPEED {AIR_VELOCITY:g} MM/S ALWAYS",
+                  f"  LMOVE {points[0]}", f"  ; seam {number} starts",
                   *seam.lines_at(0, "kawasaki", "  {}"), f"  ACCURACY {seam.blend:.3f} ALWAYS"]
         speed = None
         for to, by in seam.sections:

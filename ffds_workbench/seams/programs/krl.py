@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import from_kuka_angles, kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24
 _KEYS = ("X", "Y", "Z", "A", "B", "C")
@@ -32,6 +32,7 @@ def krl_texts(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) ->
         points = [f"XS{number}P{i}" for i in range(1, len(seam.poses) + 1)]
         ways = [f"XS{number}W{i}" for i in range(1, len(seam.way) + 1)]
         source += [f"; {plain(seam.title)}", *(f"PTP {way}" for way in ways), f"PTP XS{number}IN",
+                   *seam.lines_at(BEFORE, "kuka"),
                    f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}", f"LIN {points[0]}",
                    f"; seam {number} starts", f"$VEL.CP={_metres_per_second(settings.velocity)}",
                    f"$APO.CDIS={seam.blend:.3f}"]

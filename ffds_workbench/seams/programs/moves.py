@@ -19,6 +19,8 @@ FrameChoice = int | str | tuple[float, ...] | None
 
 AIR_VELOCITY = 100.0
 """Speed of approach and retract in mm/s."""
+BEFORE = -1
+"""The station of statements that come before the robot goes down to the seam."""
 _LARGEST_BLEND = 1.0
 
 

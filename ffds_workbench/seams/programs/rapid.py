@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import abb_quaternions, from_kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24
 _NO_EXTERNAL = "[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]"
@@ -53,7 +53,8 @@ def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -
         at = f"{tool}\\WObj:={base};"
         move = "MoveAbsJ" if targets else "MoveJ"
         body += [f"    ! {plain(seam.title)}", *(f"    {move} {way},vFfdsAir,fine,{at}" for way in ways),
-                 f"    {move} pS{number}_in,vFfdsAir,fine,{at}", f"    MoveL {points[0]},vFfdsAir,fine,{at}",
+                 f"    {move} pS{number}_in,vFfdsAir,fine,{at}", *seam.lines_at(BEFORE, "abb", "    {}"),
+                 f"    MoveL {points[0]},vFfdsAir,fine,{at}",
                  f"    ! seam {number} starts"]
         body += seam.lines_at(0, "abb", "    {}")
         for to, by in seam.sections:

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import from_kuka_angles, ur_rotation_vectors
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 32
 _ACCELERATION = 0.5
@@ -37,6 +37,7 @@ def urscript_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings
         if (joints := seam.joints_for("ur")) is not None:
             places = [f"[{','.join(numbers(np.radians(row), 8))}]" for row in joints]
         lines += [f"  # {plain(seam.title)}", *(f"  movej({place}, a={_ACCELERATION:g}, v=0.3)" for place in places),
+                  *seam.lines_at(BEFORE, "ur", "  {}"),
                   f"  movel({poses[0]}, {air})", f"  # seam {number} starts"]
         lines += seam.lines_at(0, "ur", "  {}")
         for to, by in seam.sections:

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from datetime import datetime
 
 from .angles import kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name, table_number
+from .moves import (AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name,
+                    table_number)
 
 NAME_LIMIT = 32
 USUAL_CONFIGURATION = "1,0,0,0,0,0"
@@ -49,6 +50,7 @@ def jbi_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> 
 def _moves(seam: SeamMoves, number: int, first: int, settings: RobotSettings) -> list[str]:
     start = first + len(seam.way) + 1
     lines = [f"'{plain(seam.title)[:31]}", *(f"MOVJ C{i:05d} VJ=20.00" for i in range(first, start)),
+             *seam.lines_at(BEFORE, "yaskawa"),
              f"MOVL C{start:05d} V={AIR_VELOCITY:.1f} PL=0", f"'seam {number} starts", *seam.lines_at(0, "yaskawa")]
     for to, by in seam.sections:
         end = f"C{start + to:05d} V={seam.velocity_to(to, settings):.1f}"
