@@ -59,6 +59,7 @@ _HOMES = {
     ".morphing.taking": ("as_field", "field_of_meshes", "field_of_models", "field_of_result", "save_field"),
     ".morphing.writing": ("write_deformed",),
     ".outputs": ("write", "write_deviation"),
+    ".pages": ("write_pages",),
     ".preparing": ("prepare", "write_prepared"),
     ".registering": ("Result", "register", "run"),
     ".robots": ("plan_robot", "read_cell"),
