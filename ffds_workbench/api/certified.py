@@ -80,7 +80,7 @@ def certified(nominal: Model, part: Workpiece, displacements: Mapping[int, FaceD
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, displacements, SURFACE_TOLERANCE)
     checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
-    checks.begin(nominal.shape)
+    checks.begin(nominal.shape, keep=True)
     checks.begin(shape)
     with watch.stage("certify", "Checking the topology"):
         structures = structure(nominal.shape), structure(shape)

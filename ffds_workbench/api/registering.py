@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..brep import workpiece
 from ..brep.model_files import Model
 from ..brep.workpiece import Workpiece
 from ..registration.face import FaceRegistration
@@ -23,7 +22,7 @@ from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
 from .aligning import AlignedScan, align_scan
 from .certified import CertifiedModel, certified
-from .inputs import as_cloud, as_model, as_request, check_place
+from .inputs import as_cloud, as_model, as_request, as_workpiece, check_place
 from .methods import Deformation, check_names, find_deformation
 
 
@@ -141,7 +140,7 @@ def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: 
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)
         cloud = as_cloud(scan)
-        part = workpiece.read(nominal.shape)
+        part = as_workpiece(nominal.shape)
         check_names(part, request)
     aligned = None if request.align == "none" else align_scan(nominal, cloud, request.align, progress)
     cloud = cloud if aligned is None else aligned.scan
