@@ -20,7 +20,7 @@ from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
-from .aligning import AlignedScan, align_scan
+from .placing import AlignedScan, align_scan
 from .certified import CertifiedModel, certified
 from .inputs import as_cloud, as_model, as_request, as_workpiece, check_place
 from .methods import Deformation, check_names, find_deformation

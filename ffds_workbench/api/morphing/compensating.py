@@ -26,7 +26,7 @@ from ...registration.request import RegistrationRequest
 from ...report import record, table
 from ...report.stopwatch import Progress, Stopwatch
 from ...scan.cloud import PointCloud
-from ..aligning import align_scan
+from ..placing import align_scan
 from ..certified import CertifiedModel, certified
 from ..inputs import as_cloud, as_model, as_request, check_place
 from ..methods import find_deformation

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..motions import twist_rows
+from ..robust_weights import robust_sigma
 from ..uv_raster import make_raster
 
 _CELLS = 96
@@ -62,6 +63,6 @@ def _together(points: Array, normal: Array, height: Array) -> NDArray[np.bool_]:
     for _ in range(5):
         told = np.linalg.lstsq(rows[kept], height[kept], rcond=1e-6)[0]
         left = height - rows @ told
-        sigma = 1.4826 * np.median(np.abs(left[kept]))
+        sigma = robust_sigma(left[kept])
         kept = np.abs(left) <= max(_OFF * sigma, 1e-9)
     return kept

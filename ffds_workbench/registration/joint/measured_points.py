@@ -26,6 +26,7 @@ _ITERATIONS = 8
 _SHAPES_OF_A_SCAN = 60.0
 """Shapes that a whole scan tells of a part, over which few points allow the priors to cost less (unit)."""
 _SOFT = Stage(1.0, 1.0, 1, 0.0, soft=True)
+"""A stage in which priors are trusted as far as they cost (theory: what measured points say needs no stiff stages)."""
 
 
 @dataclass(frozen=True)

@@ -11,22 +11,22 @@ from typing import Any, Protocol
 import numpy as np
 import Part
 
-from ..brep.model_files import Model
-from ..errors import InputError, RefusedError
-from ..output import replacing
-from ..registration.motions import describe_difference
-from ..registration.request import ALIGNMENTS
-from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.scan_unit import unit_by_size
-from ..report import record
-from ..report.stopwatch import Progress, Stopwatch
-from ..scan.cloud import PointCloud
-from ..scan.plausibility import wrong_unit
-from ..scan.poses import as_pose
-from ..scan.sensor.files import write_ply
-from ..scan.units import MILLIMETRES
-from .destinations import destinations
-from .inputs import as_cloud, as_model, as_workpiece
+from ...brep.model_files import Model
+from ...errors import InputError, RefusedError
+from ...output import replacing
+from ...registration.motions import describe_difference
+from ...registration.request import ALIGNMENTS
+from ...registration.rigid import FAILED, Alignment, Target, align, target_of
+from ...registration.rigid.scan_unit import unit_by_size
+from ...report import record
+from ...report.stopwatch import Progress, Stopwatch
+from ...scan.cloud import PointCloud
+from ...scan.plausibility import wrong_unit
+from ...scan.poses import as_pose
+from ...scan.sensor.files import write_ply
+from ...scan.units import MILLIMETRES
+from ..destinations import destinations
+from ..inputs import as_cloud, as_model, as_workpiece
 
 _TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
 

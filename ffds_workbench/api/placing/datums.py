@@ -10,20 +10,20 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..brep import workpiece
-from ..brep.model_files import Model
-from ..brep.workpiece import WorkpieceFace
-from ..errors import InputError, RefusedError
-from ..fields.csv_file import read_table
-from ..registration.arrays import Array
-from ..registration.datums import (CylinderFeature, DatumFeature, DatumPose, PlaneFeature, ReferencePoint,
+from ...brep import workpiece
+from ...brep.model_files import Model
+from ...brep.workpiece import WorkpieceFace
+from ...errors import InputError, RefusedError
+from ...fields.csv_file import read_table
+from ...registration.arrays import Array
+from ...registration.datums import (CylinderFeature, DatumFeature, DatumPose, PlaneFeature, ReferencePoint,
                                    SphereFeature, align_on_datums, align_on_points, points_of_faces)
-from ..registration.datums.datum_pose import FREEDOMS
-from ..registration.motions import apply
-from ..report.stopwatch import Progress, Stopwatch
-from ..scan.cloud import PointCloud
+from ...registration.datums.datum_pose import FREEDOMS
+from ...registration.motions import apply
+from ...report.stopwatch import Progress, Stopwatch
+from ...scan.cloud import PointCloud
 from .aligning import align_scan
-from .inputs import as_cloud, as_model
+from ..inputs import as_cloud, as_model
 
 _SELECTIONS = 3
 """How often the points of the datums are looked for anew, each time where the last pose has brought them."""
