@@ -50,14 +50,6 @@ def _lists_seams_once() -> bool:
     return len(Part.makeCylinder(1.0, 1.0).Faces[0].Wires[0].childShapes(False, True)) == 3
 
 
-def turns_rings() -> bool:
-    """Whether OCCT's STEP reader begins the loop of a face closed both ways, as a torus is, at its second edge;
-    from 7.8 on it begins where the file does."""
-    import Part
-
-    return tuple(map(int, Part.OCC_VERSION.split(".")[:2])) < (7, 8)
-
-
 def execute(loop_or_dialog: Any) -> int:
     """Run a dialog or an event loop until it ends: ``exec_`` in Qt 5, ``exec`` in Qt 6."""
     run = getattr(loop_or_dialog, "exec", None) or loop_or_dialog.exec_

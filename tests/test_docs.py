@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 import shlex
 import shutil
@@ -82,12 +83,31 @@ def test_refusals_in_the_faq_are_refusals():
             assert any(piece.strip(" :") in text for text in texts), row
 
 
+ELSEWHERE = {"gallery.md", "robot.md", "series.md"}
+"""Pages of resources/docs whose blocks others run: the gallery's `resources/scripts/gallery.py`, the same commands as
+here but for the edges of the bracket; the others' `tests/robot` and `tests/series`, on parts that have it."""
+RUN = [page for page in PAGES if page != ROOT / "CONTRIBUTING.md"
+       and str(page.relative_to(ROOT)) not in {f"resources/docs/{name}" for name in ELSEWHERE}
+       and re.search(r"^```(?:sh|python)$", page.read_text("utf-8"), re.MULTILINE)]
+
+
 @pytest.fixture
 def workplace(plate, tmp_path, monkeypatch):
-    """A folder in which the tutorials' files lie: the plate stands in for the bracket, so that all goes quickly."""
+    """A folder in which the pages' files lie: the plate stands in for the bracket, so that all goes quickly."""
+    import FreeCAD
+    import Part
+
     random = np.random.default_rng(0)
     shutil.copy(plate[0], tmp_path / "bracket.step")
-    write_ply(tmp_path / "bracket_scan.ply", np.loadtxt(plate[1]))
+    points = np.loadtxt(plate[1])
+    for name in ("bracket_scan", "scan", "a", "b", "c"):
+        write_ply(tmp_path / f"{name}.ply", points if len(name) > 1 else points + random.normal(0, 0.01, points.shape))
+    np.savetxt(tmp_path / "scan.xyz", points / 1000.0)
+    (tmp_path / "poses.json").write_text(json.dumps([np.eye(4).tolist()] * 3))
+    document = FreeCAD.newDocument("Part")
+    document.addObject("Part::Feature", "Bracket").Shape = Part.read(str(plate[0]))
+    document.saveAs(str(tmp_path / "part.FCStd"))
+    FreeCAD.closeDocument(document.Name)
     write_ply(tmp_path / "flat_datum.ply", np.column_stack([random.uniform(0, 40, (9000, 2)),
                                                             random.normal(0, 0.05, 9000)]))
     (tmp_path / "taught.src").write_text("DEF taught()\nLIN {X 10, Y 0, Z 5, A 0, B 0, C 180}\n"
@@ -95,12 +115,19 @@ def workplace(plate, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("name", ["robot", "reverse", "inspection"])
-def test_tutorials_run(name, workplace):
-    if name == "reverse":
-        pytest.importorskip("open3d", reason="this tutorial prepares a scan, which is open3d's")
-    for language, code in BLOCK.findall((ROOT / "resources" / "docs" / "tutorials" / f"{name}.md").read_text("utf-8")):
+@pytest.mark.parametrize("page", RUN, ids=_name)
+def test_what_the_pages_say_runs(page, workplace):
+    import FreeCAD
+
+    for language, code in BLOCK.findall(page.read_text("utf-8")):
         if language == "python":
-            exec(compile(code, name, "exec"), {})
-        for line in code.splitlines() if language == "sh" else ():
-            assert main(shlex.split(line)[1:]) == 0, line
+            exec(compile(code, page.name, "exec"), {})
+        for line in code.replace("\\\n", " ").splitlines() if language == "sh" else ():
+            words = shlex.split(line, comments=True)[1:]
+            if not words or words[0] in NOT_PYTHON | {"series", "benchmark"}:
+                continue
+            if words[0] == "prepare":
+                pytest.importorskip("open3d", reason="this page prepares a scan, which is open3d's")
+            assert main(words) == 0, line
+    for name in list(FreeCAD.listDocuments()):
+        FreeCAD.closeDocument(name)

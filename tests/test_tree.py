@@ -203,3 +203,11 @@ def test_numbers_say_where_they_come_from(path):
     silent = [text.splitlines()[node.lineno - 1] for body, in_class in rooms for number, node in enumerate(body)
               if _is_constant(node, in_class) and not ORIGIN.search(_said_of(text.splitlines(), body, number))]
     assert not silent, "say theory (and its source), unit (a physical assumption) or calibrated (by what, on what)"
+
+
+def test_robust_factors_stand_once():
+    """Of the median absolute deviation and of Tukey's cut-off; who needs one takes it from `robust_weights`."""
+    homes = {path.stem for path in MODULES for node in ast.walk(ast.parse(path.read_text("utf-8")))
+             if isinstance(node, ast.Constant) and isinstance(node.value, float)
+             and (abs(node.value - 1.4826) < 2e-4 or abs(node.value - 4.685) < 1e-3 or abs(node.value - 0.6745) < 1e-4)}
+    assert homes == {"robust_weights"}

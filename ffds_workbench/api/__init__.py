@@ -34,11 +34,13 @@ _HOMES = {
     "..scan.poses": ("read_poses",),
     "..scan.preparation": ("PreparationSettings", "PreparedScan"),
     "..scan.sensor": ("SensorSettings", "View"),
+    "..robot.cells": ("Cell",),
     "..series": ("Series", "SeriesLimits", "series"),
     "..seams.taught.carry": ("carry",),
     "..seams.measured": ("SeamLimits",),
     "..seams.plan": ("plan_seams",),
     "..seams.programs.moves": ("RobotSettings", "read_frame_choice"),
+    "..seams.programs.reading": ("read_program",),
     "..seams.settings": ("SeamSettings",),
     "..seams.output.writing": ("check_seam_outputs", "program_notes", "programmed_seams", "write_seams"),
     ".aligning": ("AlignedScan", "align_scan", "write_alignment"),
@@ -49,16 +51,17 @@ _HOMES = {
     ".outputs": ("write", "write_deviation"),
     ".preparing": ("prepare", "write_prepared"),
     ".registering": ("Result", "register", "run"),
+    ".robots": ("plan_robot", "read_cell"),
     ".sensors": ("measure_sensor", "write_sensor"),
     ".simulating": ("simulate", "write_simulation"),
 }
-"""Where each name of the surface lives. What is not asked for is not loaded, so that commands start faster."""
+"""Where each public name lives. What is not used is not loaded, so that commands start faster."""
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
-    """A name of the surface, loaded when it is first asked for (PEP 562)."""
+    """A public name, loaded at first use (PEP 562)."""
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = globals()[name] = getattr(import_module(_HOME[name], __name__), name)

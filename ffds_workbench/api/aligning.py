@@ -140,7 +140,7 @@ def target_of_shape(shape: Part.Shape) -> Target:
 
 
 def _refuse_unit(scan: PointCloud, model: Model) -> None:
-    """Refuse a scan that fits the model in no pose, and whose size speaks for another unit (InputError)."""
+    """Refuse a scan that fits the model in no pose, and whose size suggests another unit (InputError)."""
     size = model.shape.BoundBox.DiagonalLength
     factor = unit_by_size(scan.points, size)
     if factor is not None:

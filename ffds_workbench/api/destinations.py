@@ -53,7 +53,7 @@ def step_keeps_numbers(nominal: Model) -> bool:
 
 
 def destinations(paths: Sequence[str | Path | None], inputs: Sequence[str | Path]) -> dict[int, Path]:
-    """The destinations that are asked for, by their place."""
+    """The destinations that are wanted, by their position."""
     outputs = {place: Path(path) for place, path in enumerate(paths) if path is not None}
     if len({path.resolve() for path in outputs.values()}) < len(outputs):
         raise InputError("Two outputs have the same name: choose different ones.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the jobs start from: models, scans and requests, in any of the forms that callers have them in."""
+"""The inputs of the jobs: models, scans and requests, in any form that callers have them in."""
 from __future__ import annotations
 
 from collections.abc import Sequence

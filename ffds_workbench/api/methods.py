@@ -29,12 +29,12 @@ from .tuning import joint_settings, robust_settings
 
 _HSU_LATTICE = (10, 10)
 _SUSPECT, _CERTAIN = 1.5, 3.0
-"""How much nearer the far side of a sheet has to be than the named face: to be looked into, and to be believed where
-the scan shows a single face."""
+"""How much nearer the far side of a sheet has to be than the named face to be examined, and to be believed where the
+scan shows a single face."""
 
 
 class OtherSideError(RefusedError):
-    """The scan shows the other side of a sheet than the one that was named.
+    """The scan shows the opposite side of the sheet from the one that was named.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def _refuse_far_side(part: Workpiece, index: int, found: FaceRegistration,
                      whole: Callable[[], JointRegistration | None]) -> None:
     """Refuse a face that was deformed onto the far side of its sheet, if that is what the scan as a whole shows.
 
-    Where it does not tell, the word of the user who named the face counts.
+    Where that is undecided, the user who named the face is believed.
     """
     other, nearer = far_side(part.geometry(index), found, (face.geometry for face in part.faces))
     together = whole() if nearer >= _SUSPECT else None

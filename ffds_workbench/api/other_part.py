@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether a scan shows another part than the model, or lies elsewhere: told before a solve wanders for minutes."""
+"""Whether a scan shows another part than the model, or lies elsewhere: decided before a solve diverges for minutes."""
 from __future__ import annotations
 
 from collections import deque

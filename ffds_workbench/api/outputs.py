@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the jobs leave behind: files that appear whole or not at all."""
+"""The output files of the jobs, which appear complete or not at all."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The job ``prepare``: a scan as the sensor gave it becomes one that fits the part, and its files."""
+"""The job ``prepare``: a raw scan is cropped, cleaned and thinned for registration, and written."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -37,7 +37,7 @@ SURFACE_TOLERANCE = 1e-5
 
 @dataclass(frozen=True)
 class Result:
-    """An as-built model and how it came about. The deviations are measured when they are first asked for.
+    """An as-built model and how it came about. The deviations are measured at first use.
 
     Attributes
     ----------
@@ -167,7 +167,7 @@ def register(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray, 
 
 def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: PointCloud | np.ndarray,
         progress: Progress | None = None) -> Result:
-    """Do what a request asks for. Raises as `register` does.
+    """Carry out a request. Raises as `register` does.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The job ``sensor measure``: what a sensor's noise is, from a flat datum or from repeated scans."""
+"""The job ``sensor measure``: the noise of a sensor, from a flat datum or from repeated scans."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a request says of the robust method, as the settings of its two solvers."""
+"""The settings of the two solvers of the robust method, from a request."""
 from __future__ import annotations
 
 import math

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """``./ffds benchmark accuracy``: true deviations on a synthetic sheet, on families of parts and on the supplied cases,
-how often the 95 % bands hold the truth, and which of the lines that are asked are met."""
+how often the 95 % bands contain the truth, and which requirements are met."""
 from __future__ import annotations
 
 import multiprocessing

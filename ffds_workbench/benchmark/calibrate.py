@@ -2,8 +2,8 @@
 """``./ffds benchmark calibrate``: the threshold that the alignment's verdict rests on, and its error rates.
 
 Right poses and scans of other parts are measured on families that no reported figure uses: the threshold is set on some
-of them and judged on the others. Other parts are of other families. Variants, of the same family with sizes drawn anew,
-are told beside them: one that a smooth deformation turns into the part is no other part to an alignment.
+of them and judged on the others. Other parts are of other families. Variants, of the same family with other sizes, are
+listed separately: one that a smooth deformation turns into the part is not another part to an alignment.
 """
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def is_right(found: Alignment, moved: Array, truth: Array, part: LoosePart) -> b
 
 
 def least_certainty(cases: Sequence[VerdictCase]) -> float:
-    """The strictest threshold: other parts stay far below, so it is what hardly any right pose falls short of."""
+    """The strictest threshold: other parts stay far below, so it is one that nearly all right poses reach."""
     return float(np.quantile([case.certainty for case in cases if case.right], _REFUSED))
 
 

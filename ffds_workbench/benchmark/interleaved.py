@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Fair timing: the competitors take turns, so that a busy moment of the machine hits all of them.
 
-What counts of a run is the smaller of its elapsed and its processor time: the one is too long where other processes
-want the processor, the other where a library works on several cores.
+The smaller of elapsed and processor time counts: the former is too long where other processes use the processor, the
+latter where a library works on several cores.
 """
 from __future__ import annotations
 

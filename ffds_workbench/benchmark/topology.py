@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""``./ffds benchmark topology``: what real CAD files keep of their topology when their faces move.
+"""``./ffds benchmark topology``: whether real CAD files keep their topology when their faces move.
 
 Every shape is rebuilt (a) where it is, (b) with a bump on one face and the faces around it adapting, once on the
 busiest face and once on a middle one, and (c) warped as a whole, smoothly. Each result is compared with its nominal.

@@ -174,5 +174,5 @@ class EdgeGeometry:
 
 
 def _covering(gap: float) -> float:
-    """A tolerance above a sampled gap by what lies between samples."""
+    """A tolerance that also covers the gap between samples."""
     return gap + min(0.3 * gap, 3e-5) + 2e-8

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Curves of edges on deformed faces: fitted to what the faces say, and how far they are from each face."""
+"""Curves of edges on deformed faces: fitted to their traces on the faces, and how far they are from each face."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The displacement of one face, as the rebuild takes it: a function, and where its detail lies.
 
-This module owns the type alone. Whoever makes displacements (a registration, a field in space, a test) makes these;
-the rebuild samples them wherever its own accuracy needs it.
+This module owns the type only. Registrations, fields in space and tests all make these; the rebuild samples them
+wherever its own accuracy requires it.
 """
 from __future__ import annotations
 

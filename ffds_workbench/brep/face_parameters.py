@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a FreeCAD face says about its own (u, v): the parameter box, the trims and the knots of its surface."""
+"""The (u, v) of a FreeCAD face: the parameter box, the trims and the knots of its surface."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -28,7 +28,7 @@ what light shows)."""
 
 
 def forward(face: Part.Face) -> Part.Face:
-    """The face taken FORWARD, in which its wires tell the right pcurve of a seam."""
+    """The face taken FORWARD, whose wires give the right pcurve of a seam."""
     return face.reversed() if face.Orientation == "Reversed" else face
 
 

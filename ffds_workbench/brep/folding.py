@@ -43,7 +43,7 @@ def refuse_folds(workpiece: Workpiece, displacements: Mapping[int, FaceDisplacem
 
 
 def folds_over(name: str) -> RefusedError:
-    """What is said of a face that folds over."""
+    """The sentence about a face that folds over."""
     return RefusedError(f"{name} would fold over: the displacement is too large for its size.")
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Lets a pcurve start a hair late, so that whoever reads the STEP file gives the edge the tolerance that it needs.
+"""Lets a pcurve start slightly late, so that readers of the STEP file give the edge the tolerance that it needs.
 
-STEP knows no tolerance of a single edge. OCCT's reader takes the largest distance between the edge's curve and its
+STEP has no tolerance for a single edge. OCCT's reader takes the largest distance between the edge's curve and its
 pcurves at 23 parameters, ends included; between them it can be a little larger, and then the check for Boolean
 operations objects. So one pcurve starts late, along itself, by a little more than the largest distance: the shape stays
 as it is, and the first of the 23 parameters has the largest distance. The reader lets the edge start where its vertex

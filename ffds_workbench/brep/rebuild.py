@@ -2,8 +2,8 @@
 """Writes a deformed workpiece back as a shape with the same topology.
 
 Faces that move get a cubic B-spline surface over the same (u, v); their pcurves stay, so edges, holes and trims
-follow. Edges and vertices take the mean of what their faces say, and tolerances cover the rest. Everything else keeps
-its record.
+follow. Edges and vertices take the mean of their traces on the faces, and tolerances cover the rest. Everything else
+keeps its record.
 """
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Faces of a rebuilt shape as registration sees them, taken from their control points instead of sampled anew."""
+"""Faces of a rebuilt shape for registration, from their control points instead of new samples."""
 from __future__ import annotations
 
 import numpy as np

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Interpolates a vector function over a parameter box by a cubic spline surface: the control lattice of a face.
 
-Knots are bisected where the interpolation error asks for it, so that the lattice is as coarse as the tolerance allows.
+Spans are bisected where the interpolation error requires it, so that the lattice is as coarse as the tolerance allows.
 Numpy and scipy only; what is read from a FreeCAD surface is in `face_parameters`.
 """
 from __future__ import annotations

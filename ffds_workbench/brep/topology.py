@@ -2,7 +2,7 @@
 """Which face, edge and vertex of a shape touches which, by index, as FreeCAD numbers them; and where the edges run.
 
 Owns the adjacency and the sampling of edges; it moves nothing. Two shapes with equal topologies have the same
-sub-shapes in the same order, put together in the same way.
+sub-shapes in the same order, connected in the same way.
 """
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ _NAMED = 5
 
 
 def invalid_parts(shape: Part.Shape) -> tuple[str, ...]:
-    """The names of the sub-shapes that OCCT's check finds fault with, each by itself; empty for a valid shape.
+    """The names of the sub-shapes that are invalid by OCCT's check, each by itself; empty for a valid shape.
 
     The whole shape is named where none of its vertices, edges, faces, shells and solids is at fault by itself.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What several commands start from: the arguments of model, scan and registration, and what they say."""
+"""The arguments that several commands share: model, scan and registration."""
 from __future__ import annotations
 
 import argparse

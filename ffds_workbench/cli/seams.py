@@ -32,8 +32,11 @@ def _add_seams(commands: argparse._SubParsersAction) -> None:
     compare.add_argument("--nominal", type=Path, metavar="MODEL", help="the model that the as-built one was made from")
     compare.add_argument("--bands", type=Path, metavar="REPORT.json", help="the report that register wrote")
     add_options(command)
+    command.add_argument("--robot", metavar="NAME|FILE.urdf", help="the robot that welds: whether it can, and how")
+    add_robot_options(command)
     command.add_argument("--out", nargs="+", action="extend", type=Path, required=True, metavar="PATH",
-                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .FCStd (FreeCAD's robots)")
+                         help=".csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), "
+                              ".as (Kawasaki), .FCStd (FreeCAD's robots)")
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the seams and their figures along the length")
     command.set_defaults(run=seams)
@@ -71,6 +74,27 @@ def add_options(command: argparse.ArgumentParser) -> None:
                        help="distance to approach from and retract to (default: 50)")
     robot.add_argument("--keep-failing", action="store_true",
                        help="write programs for seams beyond their limits as well (default: leave them out)")
+
+
+def add_robot_options(command: argparse.ArgumentParser) -> None:
+    """Add what tells of the robot's cell."""
+    command.add_argument("--cell", type=Path, metavar="CELL.json",
+                         help="where the robot stands, its torch and what is around (default: behind the part, free)")
+    command.add_argument("--process", type=Path, metavar="PROCESS.json",
+                         help="speeds, jobs and weaves by joint and gap, for a robot")
+    command.add_argument("--searches", choices=("auto", "none"), default="auto",
+                         help="touch the seams that are less sure than the process allows, or none (default: auto)")
+
+
+def robot_cell(robot: str | None, options: argparse.Namespace) -> api.Cell | None:
+    """The cell that the options tell of; None where no robot is named."""
+    from .. import api
+
+    if robot is None and options.cell is None:
+        if options.process is not None:
+            raise InputError("A process needs a robot: name it with --robot, or in the cell.")
+        return None
+    return api.read_cell(robot, options.cell)
 
 
 def _add_carry(commands: argparse._SubParsersAction) -> None:
@@ -111,9 +135,11 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds seams``: the table to print."""
     from .. import api
 
-    inputs = [path for path in (options.model, options.nominal, options.bands) if path is not None]
+    inputs = [path for path in (options.model, options.nominal, options.bands, options.cell, options.process)
+              if path is not None]
     api.check_seam_outputs(options.out, (options.report, options.picture), inputs)
     robot, settings, limits = read_options(options)
+    cell = robot_cell(options.robot, options)
     progress(f"Reading {options.model}")
     as_built = api.read_model(options.model, options.object)
     nominal = None
@@ -122,8 +148,10 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
         nominal = api.read_model(options.nominal)
     progress("Finding and measuring the seams")
     plan = api.plan_seams(as_built, options.edge, options.auto, nominal, options.chain, options.bands, settings, limits)
+    planned = None if cell is None else api.plan_robot(plan, cell, robot, options.bands, options.process,
+                                                           options.searches == "auto", progress)[1]
     progress(f"Writing {options.out[0]}")
-    notes = [*plan.notes, *api.write_seams(plan, options.out, robot, options.report, options.picture, inputs)]
+    notes = [*plan.notes, *api.write_seams(plan, options.out, robot, options.report, options.picture, inputs, planned)]
     return "\n\n".join([plan.table(), *(["\n".join(f"Note: {note}" for note in notes)] if notes else []),
                         _written(options)])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the command line shows: progress on a terminal, one line of error, and nothing of the libraries' chatter."""
+"""What the command line shows: progress on a terminal, one line of error, and no output of the libraries."""
 from __future__ import annotations
 
 import os
@@ -16,7 +16,7 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Finished:
-    """What a command has to print, and its exit code where that is not 0: something was written all the same."""
+    """What a command has to print, and its exit code if that is not 0 although something was written."""
 
     text: str
     exit: int = 0

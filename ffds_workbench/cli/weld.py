@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command ``./ffds weld``: the whole way from a scan to the robot's program, with one page that shows each step."""
+"""The command ``./ffds weld``: from a scan to the robot's program, with one page that shows each step."""
 from __future__ import annotations
 
 import argparse
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from .. import api
 
 DIALECTS = {"kuka": "seams.src", "abb": "seams.mod", "ur": "seams.script"}
+"""Those that are written where nothing is said."""
+MORE_DIALECTS = {"fanuc": "seams.ls", "yaskawa": "seams.jbi", "kawasaki": "seams.as"}
+ALL_DIALECTS = DIALECTS | MORE_DIALECTS
+"""Those that are written for a robot, in which its cell gives tool and base."""
 PAGE = "report.html"
 
 
@@ -30,7 +34,9 @@ class Wanted:
     ----------
     edges, auto, chain : as for ``api.plan_seams``
     robot, settings, limits : for the programs, the stations and the verdict
-    dialects : of `DIALECTS`
+    dialects : of `ALL_DIALECTS`
+    cell : the robot that welds, where it stands; None: none is known
+    process, searching : its process, and whether touches are planned
     """
 
     edges: Sequence[str]
@@ -40,6 +46,9 @@ class Wanted:
     settings: api.SeamSettings
     limits: api.SeamLimits
     dialects: Sequence[str] = tuple(DIALECTS)
+    cell: api.Cell | None = None
+    process: Path | None = None
+    searching: bool = True
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -49,8 +58,10 @@ def add(commands: argparse._SubParsersAction) -> None:
     add_inputs(command)
     add_registration(command)
     seam_options.add_options(command)
-    command.add_argument("--robot", nargs="+", choices=list(DIALECTS), default=list(DIALECTS),
-                         help="default: all three")
+    command.add_argument("--robot", nargs="+", default=[], metavar="NAME|FILE.urdf",
+                         help=f"the robot that welds, and in which dialects: {', '.join(ALL_DIALECTS)} (default: "
+                              "the first three, all for a robot)")
+    seam_options.add_robot_options(command)
     command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for all that comes of it")
     command.set_defaults(run=weld)
 
@@ -64,13 +75,24 @@ def weld(options: argparse.Namespace, progress: Progress) -> str:
                          "touching.")
     robot, settings, limits = seam_options.read_options(options)
     request = read_request(options)
+    name, dialects = read_robot(options.robot)
+    cell = seam_options.robot_cell(name, options)
     folder = make_folder(options.out)
-    wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, options.robot)
+    wanted = Wanted(options.edge, options.auto, options.chain, robot, settings, limits, dialects, cell,
+                    options.process, options.searches == "auto")
     model, scan = read_inputs(options, progress)
     as_built = "as_built.step" if api.step_keeps_numbers(model) else "as_built.FCStd"
     result = api.run(request, model, scan, progress)
-    text = write_chain(result, wanted, folder, as_built, [options.model, *options.scan], progress)
+    inputs = [options.model, *options.scan, *(path for path in (options.cell, options.process) if path)]
+    text = write_chain(result, wanted, folder, as_built, inputs, progress)
     return f"{text}\n\nWritten: {folder / PAGE} and what it shows"
+
+
+def read_robot(words: Sequence[str]) -> tuple[str | None, list[str]]:
+    """The robot's name, None where there is none, and the dialects that are named, or those that are usual."""
+    dialects = [word for word in words if word in ALL_DIALECTS]
+    name = " ".join(word for word in words if word not in ALL_DIALECTS)
+    return name or None, dialects or list(ALL_DIALECTS if name else DIALECTS)
 
 
 def make_folder(path: Path) -> Path:
@@ -93,10 +115,13 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
     progress("Finding and measuring the seams")
     plan = api.plan_seams(result.model, wanted.edges, wanted.auto, result.nominal, wanted.chain, report,
                           wanted.settings, wanted.limits)
-    weldable = bool(api.programmed_seams(plan, wanted.robot))
-    programs = [*(DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
+    planned = None if wanted.cell is None else api.plan_robot(
+        plan, wanted.cell, wanted.robot, report, wanted.process, wanted.searching, progress)[1]
+    weldable = bool(api.programmed_seams(plan, wanted.robot) if planned is None else planned.seams)
+    programs = [*(ALL_DIALECTS[dialect] for dialect in wanted.dialects), "seams.FCStd"] if weldable else []
     outs = [folder / name for name in ("seams.csv", *programs)]
-    written = api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs)
+    written = api.write_seams(plan, outs, wanted.robot, folder / "seams.json", folder / "seams.png", inputs,
+                              planned)
     notes = [*plan.notes, *written]
     seams = "\n".join([plan.table(), *(f"Note: {note}" for note in notes)])
     if DIALECTS["kuka"] in programs:
@@ -110,7 +135,7 @@ def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str,
         Step("Weld seams", "Where the torch has to go, against the nominal model: largest offsets, gaps and turns.",
              seams, "seams.png", ["seams.csv", "seams.json"]),
         Step("Robot programs", "The same poses in each dialect, in the frame of the model.",
-             _about_robot(wanted.robot), None, programs)]
+             _about_robot(wanted.robot if planned is None else planned.settings), None, programs)]
     with replacing(folder / PAGE) as (temporary,):
         temporary.write_text(page(result.nominal.label, "From the scan to the robot's program.", steps), "utf-8")
     return "\n\n".join([result.table(), seams])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How the GUI lets things happen: one undo step per command, work in the background, refusals as one sentence."""
+"""How the GUI runs things: one undo step per command, work in the background, refusals as one sentence."""
 from __future__ import annotations
 
 import queue

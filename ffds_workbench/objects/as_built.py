@@ -135,7 +135,7 @@ def apply_request(obj: Any, request: RegistrationRequest) -> None:
 
 
 def _with_faces_found_again(obj: Any, job: Job) -> Job:
-    """The job with the faces that were meant, where the nominal part has got other numbers for them (InputError where
+    """The job with the faces that were meant, where their numbers in the nominal part have changed (InputError where
     they are gone)."""
     names = found_again(obj.Signatures, job.source.model.shape, job.source.item.Label)
     if all(old == new for old, new in names.items()):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The check for Boolean operations of an as-built part: it goes on after the part is there, and is noted when it ends.
+"""The check for Boolean operations of an as-built part: it continues after the part is there, and is noted when it
+ends.
 
-Objects know no GUI; the GUI makes itself known here. Without one there is nobody to come back to, and it is waited for.
+Objects know no GUI; the GUI registers itself here. Without a GUI the check is waited for.
 """
 from __future__ import annotations
 

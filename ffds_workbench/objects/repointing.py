@@ -10,7 +10,7 @@ from .as_built import is_as_built
 from .seams import is_seams
 
 _GROUPS = ("App::GroupExtension", "App::LinkBaseExtension")
-"""What only holds a part, or shows it again, goes on doing so."""
+"""Groups and links, which only hold a part or show it again, keep doing so."""
 _KEPT = {"Nominal", "Holders", "ExpressionEngine"}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The seams of a part: a document object that follows the part, and the robot's programs that come of it."""
+"""The seams of a part: a document object that follows the part, and the robot programs made from it."""
 from __future__ import annotations
 
 import csv

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Who dresses the document objects in the 3D view. Objects know no GUI; the GUI makes itself known here."""
+"""How document objects get their view providers. Objects know no GUI; the GUI registers itself here."""
 from __future__ import annotations
 
 import importlib

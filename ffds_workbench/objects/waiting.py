@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Who waits for long work together with the user. Objects know no GUI; the GUI makes itself known here."""
+"""How long work is waited for, with progress and Cancel. Objects know no GUI; the GUI registers itself here."""
 from __future__ import annotations
 
 import importlib

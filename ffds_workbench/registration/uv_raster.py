@@ -26,7 +26,7 @@ _LARGEST_TURN = 0.12
 radius)."""
 _AFFINE_TOLERANCE = 1e-6
 """In mm: a surface this near to an affine one is affine (theory: far below any tolerance, above rounding)."""
-DEEP = 3.0
+LARGEST_DEPTH = 3.0
 """Distances from the trims are known up to this, in mm (theory: no margin is larger)."""
 
 
@@ -46,7 +46,8 @@ class Raster:
     curvature : (m·n, 2) along them, in 1/mm, negative where the surface bulges outwards
     area : (m·n,) in mm²
     inside : (m·n,) the cell's centre lies on the trimmed face
-    depth : (m·n,) distance of the centre from the nearest trim in mm, at most `DEEP`, negative off the material
+    depth : (m·n,) distance of the centre from the nearest trim in mm, at most `LARGEST_DEPTH`, negative off the
+        material
     """
 
     shape: tuple[int, int]
@@ -167,9 +168,9 @@ def make_raster(face: FaceGeometry, cells: int = 4096) -> Raster:
     tangent_u, tangent_v = s_u * step[0], s_v * step[1]
     edge = np.sqrt(0.5 * (dot(tangent_u, tangent_u) + dot(tangent_v, tangent_v)).mean())
     trims = boundary_points(face, 0.5 * float(edge))
-    depth = np.full(len(position), DEEP)
+    depth = np.full(len(position), LARGEST_DEPTH)
     if len(trims):
-        depth = np.minimum(cKDTree(trims).query(position, distance_upper_bound=DEEP)[0], DEEP)
+        depth = np.minimum(cKDTree(trims).query(position, distance_upper_bound=LARGEST_DEPTH)[0], LARGEST_DEPTH)
     depth = np.where(inside, depth, -depth)
     return Raster(shape, corner, step, (surface.periodic_u, surface.periodic_v), flat, position, tangent_u, tangent_v,
                   normal, principal_1, principal_2, curvature, area * step[0] * step[1], inside, depth)

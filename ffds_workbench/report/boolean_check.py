@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""OCCT's check for Boolean operations, in processes of its own and within a time.
+"""OCCT's check for Boolean operations, in separate processes and with a time limit.
 
 Every body of a shape is checked by itself. Where bodies touch, the check of the whole reports errors that come and go
 with the last digits of either; that is no flaw of a body.
@@ -53,8 +53,8 @@ BodyErrors = tuple[int | None, ...]
 class BooleanChecks:
     """OCCT's checks for Boolean operations, running beside other work.
 
-    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own, behind what is
-    more urgent. It ends with this object, or by itself when it has used the time, should nobody be left to end it.
+    A check can take hours and cannot be interrupted, so each shape is checked in a process of its own with low
+    priority. It ends with this object, or by itself when its time is up.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The topology certificate: what of a nominal shape's topology its as-built version keeps, and how tightly it closes.
+"""The topology certificate: whether an as-built shape keeps the topology of its nominal, and how tightly it closes.
 
 Judges two shapes and changes neither. OCCT evaluates every curve and surface here, so that the verdict does not rest
 on the spline code that made the result.
@@ -31,7 +31,7 @@ _AROUND_LARGEST = 17
 
 @dataclass(frozen=True)
 class Structure:
-    """What of a shape its deformation must keep.
+    """What a deformation must keep of a shape.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ class Certificate:
 
 
 def broken(before: Structure, after: Structure) -> list[str]:
-    """One sentence for everything that forbids to hand a deformed shape out; empty if nothing does."""
+    """One sentence for every reason to refuse a deformed shape; empty if there is none."""
     counts = before.topology.counts, after.topology.counts
     sentences = [f"The number of {kind} changed from {counts[0][kind]} to {counts[1][kind]}."
                  for kind in counts[0] if counts[0][kind] != counts[1][kind]]

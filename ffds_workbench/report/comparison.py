@@ -20,8 +20,8 @@ def compare(nominal: Workpiece, built: Part.Shape, indices: Sequence[int], point
     """Deviations from the nominal and from the as-built faces, each of the points that are nearest to them.
 
     A point may be nearest to one skin of a sheet before and to the other one after: as every shape has its own nearest
-    points, neither looks better than `measure` finds it by itself. Faces around those asked for take part in the
-    contest for points, so that none is blamed for its neighbour's.
+    points, neither looks better than `measure` finds it by itself. Faces around the wanted ones compete for points too,
+    so that no face gets those of its neighbour.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The certificate of a written file: what it reads back as, beside the nominal shape."""
+"""The certificate of a written file: the shape that is read back, compared with the nominal one."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -32,13 +32,16 @@ class FileCertificate:
 
     @property
     def lost(self) -> list[str]:
-        """One sentence for everything that the nominal shape has and the file does not; empty where nothing is lost."""
+        """One sentence for everything that the nominal shape has and the file does not, and what to do; empty where
+        nothing is lost."""
         nominal, own = self.meshes
         sentences = []
         if self.before.closed and not self.after.closed:
             sentences.append("The shape is no longer closed.")
         if nominal is not None:
             sentences += [f"Face{face + 1} gives no triangles." for face in own.empty if face not in nominal.empty]
+        if sentences and self.back.suffix in (".step", ".stp"):
+            sentences.append("Write .brep or .FCStd, which store the shape as it is.")
         return sentences
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A page that tells of a job step by step: HTML beside the files that the job wrote."""
+"""A page that shows a job step by step: HTML beside the files that the job wrote."""
 from __future__ import annotations
 
 import html

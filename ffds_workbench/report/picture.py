@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 _MOST_POINTS = 60_000
 COLOURS = ("#27348b", "#2f7fc8", "#7cc4cf", "#8dbd8b", "#f0cf5b", "#e8792f", "#a8122a")
 _INK, _MUTED, _PAPER = "#1d2733", "#6b7785", "#ffffff"
+_LEGEND_INCHES = 1.34
 _BEFORE, _AFTER = "#c2703d", "#2b6cb0"
 
 
@@ -60,16 +61,18 @@ def draw(path: Path, title: str, panels: Sequence[Panel]) -> None:
 
     limit = _colour_limit(panels)
     axes_in_view = viewing_axes(panels[0].normals)
-    figure = Figure(figsize=(6.4 * len(panels) + 0.6, 7.6), dpi=130, facecolor=_PAPER)
+    width = 6.4 * len(panels) + 0.6
+    right = 1.0 - _LEGEND_INCHES / width
+    figure = Figure(figsize=(width, 7.6), dpi=130, facecolor=_PAPER)
     FigureCanvasAgg(figure)
-    grid = figure.add_gridspec(2, len(panels), height_ratios=(3.6, 1.0), left=0.06, right=0.9, top=0.87, bottom=0.09,
+    grid = figure.add_gridspec(2, len(panels), height_ratios=(3.6, 1.0), left=0.06, right=right, top=0.87, bottom=0.09,
                                hspace=0.16, wspace=0.06)
     figure.text(0.06, 0.95, title, fontsize=15, color=_INK, weight="bold", va="center")
     boxes = _common_box(panels, axes_in_view)
     for column, panel in enumerate(panels):
         axes = figure.add_subplot(grid[0, column])
         coloured = _draw_view(axes, panel, axes_in_view, limit, boxes)
-    bar = figure.colorbar(coloured, cax=figure.add_axes((0.915, 0.36, 0.016, 0.48)), extend="both")
+    bar = figure.colorbar(coloured, cax=figure.add_axes((right + 0.2 / width, 0.36, 0.2 / width, 0.48)), extend="both")
     bar.set_label("deviation, mm (+ outside the material)", color=_INK, fontsize=10)
     bar.outline.set_visible(False)
     bar.ax.tick_params(colors=_MUTED, labelsize=9, length=0)

@@ -85,8 +85,8 @@ def joint_edge_records(edges: Iterable[EdgeRegistration]) -> list[Record]:
 
 def sheet_record(joint: JointRegistration | None) -> Record:
     """The report's ``sheet``: as-built thickness in mm, one per solid where there are several, strain, and how far the
-    part may be off in mm because the scan may show the other skin; what turns or slides in itself, faces that are
-    carried because they did not come to rest, and edges that stay because they bound no face."""
+    part may be off in mm because the scan may show the other skin; motions of solids within their own surface, faces
+    that are carried because they did not settle, and edges that stay because they bound no face."""
     if joint is None:
         return {"thickness": None, "strain": None, "unsure": 0.0, "free_motions": [], "torn": [], "loose": []}
     thickness = joint.thickness[0] if len(joint.thickness) == 1 else list(joint.thickness)

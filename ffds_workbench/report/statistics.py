@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a set of signed deviations comes to, in the figures that the report names."""
+"""The figures of signed deviations, as in the report."""
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass

@@ -10,7 +10,7 @@ Progress = Callable[[str], None]
 
 
 class Stopwatch:
-    """Times named stages and tells a progress callback what is being done.
+    """Times named stages and calls a progress callback with what is being done.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ def _row(name: str, points: str, figures: Sequence[str]) -> str:
 
 
 def doubts(report: Mapping[str, Any]) -> str:
-    """What a registration could not tell, a sentence each; empty if there is nothing."""
+    """What a registration could not decide, a sentence each; empty if there is nothing."""
     sheet = report["sheet"]
     free = [f"{motion} without any scan showing it, so it stays where it was." for motion in sheet["free_motions"]]
     torn = [f"{name} fits its scan points in more than one place: it is carried by its neighbours, not registered."

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""With what a report was made: the versions of FFDS and of all that its figures rest on."""
+"""The versions of FFDS and of the software that the figures of a report depend on."""
 from __future__ import annotations
 
 import numpy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The covariance of values at scattered places by their distance, and the bell that fits it."""
+"""The covariance of values at scattered places as a function of distance, and the Gaussian that fits it."""
 from __future__ import annotations
 
 from collections.abc import Sequence

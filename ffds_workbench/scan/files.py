@@ -2,8 +2,7 @@
 """Scan files of every supported format, read into one point cloud in mm.
 
 Each format has a module of its own whose ``read(path)`` returns the coordinates as the file holds them, (n, 3)
-float64, or (n, 6) with its normals after them; units, non-finite rows and what makes a file useless are dealt with
-here, once.
+float64, or (n, 6) with its normals after them; units, non-finite rows and unusable files are handled here, once.
 """
 from __future__ import annotations
 
@@ -69,7 +68,7 @@ def _read_one(path: Path) -> PointCloud:
 
 
 def _usable(path: Path, rows: NDArray[np.float64]) -> PointCloud:
-    """Finite points only, and none that is out of this world; a file with no two different points is refused."""
+    """Only finite points of plausible size; a file without two different points is refused."""
     finite = (np.abs(rows[:, :3]) < FARTHEST).all(axis=1)
     points = np.ascontiguousarray(rows[finite, :3], dtype=np.float64)
     dropped = int(len(rows) - len(points))

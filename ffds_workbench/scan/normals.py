@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The normals that scan files bring along: how their columns are called, and which numbers are normals at all."""
+"""The normals in scan files: the names of their columns, and which numbers are normals at all."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -19,7 +19,7 @@ def as_pose(matrix: Any, of_what: str) -> Array:
 
     Raises
     ------
-    InputError : it is none; ``of_what`` begins the sentence
+    InputError : it is not a motion; ``of_what`` begins the sentence
     """
     try:
         pose = np.asarray(matrix, dtype=float)

@@ -174,7 +174,7 @@ def _profile(cells: _NoiseCells, shot: Index, scans: int, name: str) -> SensorPr
     if found is None:
         return SensorProfile(float(np.sqrt(scatter)), 0.0, 0.0, name)
     variance, length = found
-    # Averaging over a cell is, nearly, a Gaussian of variance size²/12 per axis: so much varies within it.
+    # Averaging over a cell is nearly a Gaussian filter of variance size²/12 per axis: this much varies within it.
     blur = cells.size**2 / 6
     white = max(scatter - variance * blur / (length**2 + blur), 1e-4 * scatter)
     return SensorProfile(float(np.sqrt(white)), float(np.sqrt(variance)), length, name)

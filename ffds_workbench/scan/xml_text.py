@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""XML of files that others made."""
+"""XML from untrusted files."""
 from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree

@@ -2,6 +2,6 @@
 """Weld seams on the as-built model: where they run, how the torch stands, how wide the gap is, and the robot's program.
 
 From the top: `find` says which edges are seams, `stations` samples them, `offsets` compares with the nominal model,
-`table` and `programs` write what the robot needs, and `carry` takes a taught path from the nominal to the
-as-built model.
+`table` and `programs` write what the robot needs, and `carry` transfers a taught path from the nominal to
+the as-built model.
 """

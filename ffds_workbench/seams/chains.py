@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Stretches of edges joined to seams: along tangency, with a direction and a start."""
+"""Stretches of edges joined to seams where they continue each other tangentially, with a direction and a start."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -89,7 +89,7 @@ def _ends(weldment: Weldment, stretches: Sequence[Stretch]) -> list[_End]:
 
 
 def join(weldment: Weldment, stretches: Sequence[Stretch], corner: float) -> tuple[list[Seam], list[str]]:
-    """Join stretches where one goes on as the other, within the angle ``corner`` (rad).
+    """Join stretches that continue each other within the angle ``corner`` (rad).
 
     Returns
     -------
@@ -160,7 +160,7 @@ def _walk(first: int, through_start: bool,
 
 
 def grow(weldment: Weldment, edge: int, corner: float) -> list[int]:
-    """The edge and all that go on from it along tangency, in both directions.
+    """The edge and all that continue it tangentially, in both directions.
 
     Raises
     ------

@@ -19,7 +19,8 @@ _LEAST_SUM = 0.1
 def torch_frames(tangents: Array, n1: Array, n2: Array) -> Array:
     """Frames of the bisector of both faces, (n, 3, 3), from unit tangents and outward normals, (n, 3) each.
 
-    Where a normal is not square to the tangent (parts that gape), z gives way: x stays the travel direction.
+    Where a normal is not perpendicular to the tangent (parts with a gap), z is adjusted and x stays the travel
+    direction.
 
     Raises
     ------

@@ -201,7 +201,7 @@ def _length(weldment: Weldment, stretch: Stretch) -> float:
 
 
 def _each_once(weldment: Weldment, found: list[tuple[Stretch, float]], tolerance: float) -> list[Stretch]:
-    """Without those that others cover: where parts meet edge to edge, both tell of the joint. Whole edges stay."""
+    """Without those that others cover: where parts meet edge to edge, each has the joint. Whole edges stay."""
     def order(item: tuple[Stretch, float]) -> tuple[bool, float, int]:
         stretch, length = item
         return (stretch.start, stretch.end) != (0.0, 1.0), -round(length, 2), stretch.edge

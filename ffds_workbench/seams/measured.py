@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A seam with all that is known of it: its stations, the nominal ones, the offsets, the trust and the verdict."""
+"""A seam with all its figures: its stations, the nominal ones, the offsets, the trust and the verdict."""
 from __future__ import annotations
 
 import math
@@ -52,7 +52,7 @@ class MeasuredSeam:
     nominal, offsets : the paired nominal stations and the differences; None without a nominal model
     flags : (n,) "observed", "bridged", "carried" or "nominal"
     bands : (n,) 95 % band in mm, NaN where unknown
-    reported : whether a registration's report says of its flags
+    reported : whether the flags come from a registration's report
     """
 
     stations: Stations
@@ -96,7 +96,7 @@ class MeasuredSeam:
 
 def measure(as_built: Weldment, seam: Seam, settings: SeamSettings, nominal: Weldment | None = None,
             trust: Trust | None = None) -> MeasuredSeam:
-    """Sample a seam; compare it with the nominal one, and look up what a registration's report says of it."""
+    """Sample a seam, compare it with the nominal one, and look up its flags and bands in a registration's report."""
     found = stations(as_built, seam, settings)
     flags, bands = (trust or NO_REPORT).along(found)
     if nominal is None:

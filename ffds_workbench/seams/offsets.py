@@ -40,7 +40,7 @@ class Offsets:
 
 
 def check_pair(nominal: Weldment, as_built: Weldment) -> None:
-    """Refuse two models of which one is not the other, deformed (InputError)."""
+    """Refuse two models neither of which is the other one deformed (InputError)."""
     a, b = nominal.topology, as_built.topology
     for kind in ("faces", "edges", "vertices"):
         if a.counts[kind] != b.counts[kind]:

@@ -18,7 +18,7 @@ class SeamSettings:
     chord : largest distance in mm of the seam from the straight line between two stations
     work_angle : the torch leans by this (rad) about the travel direction, right-handed, from the bisector of the faces
     travel_angle : the torch leans by this (rad) along the seam: positive points forwards (push), negative back (drag)
-    corner : edges go on as one seam where their directions differ by less than this (rad)
+    corner : edges form one seam where their directions differ by less than this (rad)
     min_length : a seam shorter than this (mm) is refused where it was named, and reported where it was found
     start : a point in mm: a closed seam starts at its nearest point, an open one at its nearer end
     reverse : run against the direction of the seam's lowest-numbered edge (or back towards ``start``)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The stations of a seam: what the robot and the welder need to know at each of them."""
+"""The stations of a seam, with what the robot and the welder need at each of them."""
 from __future__ import annotations
 
 from dataclasses import dataclass

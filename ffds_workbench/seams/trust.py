@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the registration knows of a seam: observed or guessed, and its 95 % band; from the registration's report."""
+"""How certain a seam is: observed or inferred, and its 95 % band, from the registration's report."""
 from __future__ import annotations
 
 import json
@@ -37,6 +37,10 @@ class Trust:
         known = [self._of(stretch) for stretch in stations.seam.stretches]
         flags, bands = np.array([entry.flag for entry in known]), np.array([entry.band for entry in known])
         return flags[stations.places.stretch], bands[stations.places.stretch]
+
+    def band(self, name: str) -> float:
+        """Of a face or an edge in mm, NaN where the report has none."""
+        return self.entries.get(name, _UNKNOWN).band
 
     def _of(self, stretch: Stretch) -> _Entry:
         """The edge's own entry. Where parts meet, one face of the edge is covered: the joined faces count too."""

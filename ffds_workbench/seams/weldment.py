@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A shape as a welder sees it: parts, and edges with what is to their sides.
+"""A shape as a weldment: parts, and edges with the faces on both sides.
 
 Owns the evaluation of edges, of face normals along them, and of the nearest point of a part. Sub-shapes are indices,
 0-based, in FreeCAD's order; an edge's *fraction* is 0 at the start of its parameter range and 1 at its end.

@@ -726,7 +726,7 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan liegt nicht auf {name}: Prüfen Sie Einheit und Ausrichtung, oder wählen Sie eine andere Fläche.</translation>
     </message>
     <message>
-      <source>The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the scan, or undo and align it by three points.</source>
+      <source>The scan fits the part equally well in {count} poses, and nothing shows which one is right. Look at the scan, or undo and align it by three points.</source>
       <translation>Der Scan passt in {count} Lagen gleich gut auf das Teil, und nichts verrät, welche richtig ist. Sehen Sie sich den Scan an, oder machen Sie es rückgängig und richten Sie ihn mit drei Punkten aus.</translation>
     </message>
     <message>
@@ -1142,6 +1142,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>FFDS_ShowDocumentation</name>
+    <message>
+      <source>Documentation</source>
+      <translation>Dokumentation</translation>
+    </message>
+    <message>
+      <source>Opens the documentation: the web pages that resources/scripts/docs.sh has built, or the texts that they are built from.</source>
+      <translation>Öffnet die Dokumentation: die Webseiten, die resources/scripts/docs.sh gebaut hat, oder die Texte, aus denen sie gebaut werden.</translation>
+    </message>
+    <message>
+      <source>Tutorials, how-tos, what is refused and what to do, and how sure a result is</source>
+      <translation>Einführungen, Anleitungen, was abgelehnt wird und was zu tun ist, und wie sicher ein Ergebnis ist</translation>
+    </message>
+  </context>
+  <context>
     <name>FFDS_ShowLattice</name>
     <message>
       <source>Draw the control lattices of the selected as-built part, before and after, or hide them</source>
@@ -1265,6 +1280,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Sentence</name>
     <message>
+      <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
+      <translation>	W = {0} deg,	P = {1} deg,	R = {2} deg</translation>
+    </message>
+    <message>
+      <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
+      <translation>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</translation>
+    </message>
+    <message>
       <source> (its {0} rows are not finite numbers)</source>
       <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
     </message>
@@ -1327,6 +1350,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>ABB controllers name their {0}s: give a name or X,Y,Z,A,B,C instead of {1}.</source>
       <translation>ABB-Steuerungen benennen Werkzeuge und Basen ({0}): Geben Sie einen Namen oder X,Y,Z,A,B,C statt {1} an.</translation>
+    </message>
+    <message>
+      <source>AS names its frames: give a name or X,Y,Z,A,B,C instead of {0}.</source>
+      <translation>AS benennt seine Koordinatensysteme: Geben Sie einen Namen oder X,Y,Z,A,B,C statt {0} an.</translation>
     </message>
     <message>
       <source>Aligning the scan</source>
@@ -1709,8 +1736,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Ursprung der Scankoordinaten liegt innerhalb des Scans, dort stand also kein Sensor: Geben Sie an, wo er stand (--view X,Y,Z).</translation>
     </message>
     <message>
-      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) or .FCStd.</source>
-      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots) oder .FCStd.</translation>
+      <source>The output {0} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.</source>
+      <translation>Die Ausgabe {0} hat ein unbekanntes Format: Nehmen Sie .csv, .src (KUKA), .mod (ABB), .script (Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) oder .FCStd.</translation>
     </message>
     <message>
       <source>The output {0} is of an unknown format: use .step, .brep or .FCStd.</source>
@@ -1785,12 +1812,24 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Das Programm hat keine Lagen mit X, Y und Z.</translation>
     </message>
     <message>
+      <source>The program {0} cannot be read: {1}.</source>
+      <translation>Das Programm {0} kann nicht gelesen werden: {1}.</translation>
+    </message>
+    <message>
+      <source>The program {0} is in a language that is not read here: use .ls, .jbi or .as.</source>
+      <translation>Das Programm {0} ist in einer Sprache, die hier nicht gelesen wird: Nehmen Sie .ls, .jbi oder .as.</translation>
+    </message>
+    <message>
+      <source>The program {0} moves to {1}, which it does not have.</source>
+      <translation>Das Programm {0} fährt nach {1}, das darin fehlt.</translation>
+    </message>
+    <message>
       <source>The rebuilt shape is not valid in {0}: the displacement is too large or too uneven for this part.</source>
       <translation>Die neu aufgebaute Form ist in {0} nicht gültig: Die Verschiebung ist für dieses Teil zu groß oder zu ungleichmäßig.</translation>
     </message>
     <message>
-      <source>The registration did not converge (the last step was {0} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
-      <translation>Die Registrierung kam zu keinem Ende (letzter Schritt {0} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
+      <source>The registration did not converge (the last step moved {0} by {1} mm): the scan does not constrain the part; align it first, or freeze faces.</source>
+      <translation>Die Registrierung kam zu keinem Ende (der letzte Schritt bewegte {0} um {1} mm): Der Scan hält das Teil nicht fest; richten Sie ihn zuerst aus, oder fixieren Sie Flächen.</translation>
     </message>
     <message>
       <source>The registration leaves {0} off its scan points, by {1} mm where the noise is {2} mm: align the scan better, or register the face by itself (--face {3}).</source>
@@ -2165,6 +2204,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Was benachbarte Punkte gemeinsam haben, reicht weiter als {0} mm, zu weit für einen Scan dieser Größe: Die Bezugsfläche ist nicht eben oder zu klein.</translation>
     </message>
     <message>
+      <source>Write .brep or .FCStd, which store the shape as it is.</source>
+      <translation>Schreiben Sie .brep oder .FCStd, die die Form speichern, wie sie ist.</translation>
+    </message>
+    <message>
       <source>a body of revolution about the axis ({0}, {1}, {2})</source>
       <translation>ein Drehkörper um die Achse ({0}, {1}, {2})</translation>
     </message>
@@ -2271,6 +2314,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
       <translation>{0} kann nicht zugleich verformt und fixiert werden: Streichen Sie die Fläche aus einer der beiden Listen.</translation>
+    </message>
+    <message>
+      <source>{0} controllers number their {1}s: give a number or X,Y,Z,A,B,C instead of '{2}'.</source>
+      <translation>Steuerungen von {0} nummerieren ihre {1}s: Geben Sie eine Nummer oder X,Y,Z,A,B,C statt „{2}“ an.</translation>
     </message>
     <message>
       <source>{0} does not have the faces and edges of {1}: recompute it first.</source>

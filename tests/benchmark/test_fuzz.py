@@ -53,7 +53,8 @@ def test_a_command_that_ends_its_process_is_told_from_one_that_refuses(tmp_path,
 
 def test_a_command_without_an_end_is_ended(tmp_path, monkeypatch):
     monkeypatch.setattr(commands, "main", lambda arguments: sum(iter(int, 1)))
-    assert commands.run([], tmp_path / "said", 0.0).code == -signal.SIGKILL
+    ended = commands.run([], tmp_path / "said", 0.0)
+    assert ended.code is None and worker._of_command(ended) == "did not end"
 
 
 def test_there_are_models_to_damage():

@@ -82,6 +82,13 @@ def _prism() -> Part.Shape:
     return Part.Face(Part.makePolygon([(0, 0, 0), (30, 0, 0), (20, 20, 0), (0, 0, 0)])).extrude(Vector(0, 0, 9))
 
 
+def test_a_torus_as_a_file_has_it_keeps_its_numbers(tmp_path):
+    """A reader lists its two seams the other way round than `Part.makeTorus`."""
+    Part.makeTorus(20, 5).exportStep(str(tmp_path / "nominal.step"))
+    warped = _warped(Part.read(str(tmp_path / "nominal.step")))
+    _same_numbers(warped, _written(warped, tmp_path / "part.step"))
+
+
 def test_a_list_that_the_writer_breaks_is_found(tmp_path):
     """OCCT breaks lines where they are full, before the context of a long list of bodies for one."""
     shape = _with_free_shapes()

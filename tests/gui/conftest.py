@@ -11,6 +11,7 @@ from pathlib import Path
 import FreeCAD
 import FreeCADGui as Gui
 import pytest
+from pivy import coin  # before a scene graph is asked for: FreeCAD 1.1 hands none out without it
 
 from ffds_workbench.api import registering
 from ffds_workbench.compat import qt
@@ -124,8 +125,6 @@ class Hands:
 
     def drawn(self) -> bytes:
         """The coordinates of what the newest top node of the view draws."""
-        from pivy import coin
-
         graph = Gui.ActiveDocument.ActiveView.getSceneGraph()
         search = coin.SoSearchAction()
         search.setType(coin.SoCoordinate3.getClassTypeId())

@@ -305,7 +305,7 @@ def test_a_plate_seen_from_above_is_aligned_and_what_is_not_told_is_said(hands, 
     said = hands.answer(lambda dialog: (hands.screenshot("align_plate"), dialog.accept()), QtWidgets.QMessageBox)
     hands.command(AlignScan)
     hands.until(lambda: said, 90)
-    assert "poses alike" in said[0] and plate_document.UndoNames == ["Align scan"]
+    assert "equally well in" in said[0] and plate_document.UndoNames == ["Align scan"]
     # The bump leaves the pose within the plane about half its height.
     points = scan_points(scan)
     assert np.abs(points.min(axis=0)[:2]).max() < 0.5 and np.abs(points.max(axis=0)[:2] - [60, 40]).max() < 0.5

@@ -159,7 +159,7 @@ def test_seams_that_fail_are_asked_about_before_the_program_is_written(hands, bl
     hands.command(ExportProgram)
     hands.until(lambda: read)
     hands.wait(300)
-    assert read[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    assert read[0] == f"Beyond their limits, and therefore left out of the programs: {edges[1]} (lateral, normal)."
     assert target.exists() == (seams_in > 0)
     written = (tmp_path / "weld.dat").read_text() if seams_in else ""
     assert [name in written for name in ("XS1IN", "XS2IN")] == [seams_in >= number for number in (1, 2)]

@@ -26,6 +26,27 @@ def test_the_workbench_opens_without_a_warning():
     assert not [line for line in new.splitlines() if "arning" in line or "rror" in line or "Traceback" in line]
 
 
+def test_the_documentation_opens_built_or_not(monkeypatch, tmp_path):
+    from ffds_workbench.gui.commands.learn import show_documentation
+
+    opened = []
+
+    class Services:
+        @staticmethod
+        def openUrl(url):
+            opened.append(Path(url.toLocalFile()))
+            return True
+
+    monkeypatch.setattr(show_documentation.QtGui, "QDesktopServices", Services)
+    monkeypatch.setattr(show_documentation, "ROOT", tmp_path)
+    show_documentation.ShowDocumentation().run()
+    built = tmp_path / "out" / "docs" / "index.html"
+    built.parent.mkdir(parents=True)
+    built.write_text("")
+    show_documentation.ShowDocumentation().run()
+    assert opened[0].name == "index.md" and opened[0].is_file() and opened[1] == built
+
+
 def test_the_workbench_has_an_icon_and_a_name():
     workbench = Gui.getWorkbench("FFDSWorkbench")
     assert Path(workbench.Icon).is_file()

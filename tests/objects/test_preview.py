@@ -5,6 +5,8 @@ The scan is a bump of 1 mm on a plate with a noise of 0.02 mm, which bounds what
 """
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import Part
 import pytest
@@ -13,7 +15,7 @@ from ffds_workbench import api
 from ffds_workbench.api.registering import SURFACE_TOLERANCE
 from ffds_workbench.gui.preview.face_on_scan import corners
 from ffds_workbench.gui.preview.patches import Preview, figures
-from ffds_workbench.registration.request import RegistrationRequest
+from ffds_workbench.registration.request import ISOMETRY, METHODS, RegistrationRequest
 from ffds_workbench.registration.uv_raster import make_raster
 from ffds_workbench.scan.cloud import PointCloud
 
@@ -29,6 +31,14 @@ REQUESTS = [
     {"method": "ffds"}, {"method": "ffd-hsu"}, {"method": "ffds", "freeze": ("Face2",)},
     {}, {"isometry": "on", "stiffness": 20.0}, {"isometry": "off", "gate": 0.2, "freeze": ("Face5",)},
 ]
+
+
+def test_every_method_and_setting_is_among_them():
+    """But for what `actions.make_as_built` refuses, as an as-built part takes its scan as it lies and has no bands."""
+    tried = {name for settings in REQUESTS for name in settings}
+    assert tried == {field.name for field in fields(RegistrationRequest)} - {"sensor", "align"}
+    assert {RegistrationRequest(**settings).method for settings in REQUESTS} == set(METHODS)
+    assert {RegistrationRequest(**settings).isometry for settings in REQUESTS} == set(ISOMETRY)
 
 
 def told(text: str) -> None:

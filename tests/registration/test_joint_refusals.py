@@ -84,8 +84,10 @@ def test_a_displacement_larger_than_the_part(solved):
 
 def test_no_convergence(solved):
     problem, state = solved
-    with pytest.raises(RefusedError, match="did not converge .the last step was 0.60 mm"):
-        refuse_unsound(problem, replace(state, last_step=0.6))
+    steps = np.full(len(problem.part.faces), 0.1)
+    steps[2] = 0.6
+    with pytest.raises(RefusedError, match="did not converge .the last step moved Face3 by 0.60 mm"):
+        refuse_unsound(problem, replace(state, last_step=0.6, face_steps=steps))
 
 
 def test_a_face_that_folds_over(part, solved):

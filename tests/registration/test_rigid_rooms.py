@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from ffds_workbench.brep import workpiece
 from ffds_workbench.registration.motions import angle, apply, motion, shift
 from ffds_workbench.registration.rigid import (AMBIGUOUS, FAILED, OK, RigidSettings, VerdictSettings, align, target_of)
-from ffds_workbench.registration.rigid.evidence import Evidence, LooseScan, match_scan, weigh_match
+from ffds_workbench.registration.rigid.evidence import Evidence, UnalignedScan, match_scan, weigh_match
 from ffds_workbench.registration.rigid.search import propose, starts_of
 from ffds_workbench.registration.rigid.verdict import Answer, alignment_of
 from ffds_workbench.registration.scan_points import Sketch, TablePlane, sketch_of
@@ -66,7 +66,7 @@ def top(count: int) -> np.ndarray:
 
 
 def weighed(part, points: np.ndarray, normals: np.ndarray, table: TablePlane | None = None, rounds=()) -> Evidence:
-    scan = LooseScan(part, sketch(points, normals), table)
+    scan = UnalignedScan(part, sketch(points, normals), table)
     return weigh_match(scan, np.eye(4), normals, match_scan(scan, np.eye(4), normals, rounds)[0])
 
 
@@ -125,7 +125,7 @@ def evidence(score: float, explained: float = 1.0, coverage: float = 0.5) -> Evi
 
 
 def verdict_of(part, found: Evidence):
-    scan = LooseScan(part, sketch(top(200), np.tile(UP, (200, 1))), None)
+    scan = UnalignedScan(part, sketch(top(200), np.tile(UP, (200, 1))), None)
     return alignment_of(scan, Answer(np.eye(4), found, scan.sketch.normals), [], 1.0)
 
 
@@ -154,7 +154,7 @@ def test_proposals_hold_the_pose():
     part, points = target(step_shape()), step_scan()
     moved = motion(Rotation.random(random_state=3).as_matrix(), np.array([200.0, -50.0, 30.0]))
     generator = np.random.default_rng(0)
-    scan = LooseScan(part, sketch_of(apply(moved, points), generator), None)
+    scan = UnalignedScan(part, sketch_of(apply(moved, points), generator), None)
     found = propose(scan, starts_of(scan, "anywhere"), part.settings.anywhere.stages, generator)
     near = [angle(pose @ moved, np.eye(4)) < 0.1 and shift(pose @ moved, np.eye(4), part.centre) < 0.03 * part.size
             for pose in found.poses]

@@ -41,7 +41,7 @@ def test_an_open_file_and_a_face_without_triangles_are_refused(monkeypatch):
         certify_file(box, before, replace(back, shape=open_shell))
     meshes = iter([Mesh((2,), 4), Mesh((), 0)])
     monkeypatch.setattr("ffds_workbench.report.file_certificate.mesh", lambda shape: next(meshes))
-    with pytest.raises(RefusedError, match="Face3 gives no triangles"):
+    with pytest.raises(RefusedError, match="Face3 gives no triangles. Write .brep or .FCStd"):
         certify_file(box, before, back)
 
 

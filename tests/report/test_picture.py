@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from ffds_workbench.report.picture import Panel, draw, viewing_axes
 from ffds_workbench.report.statistics import statistics
@@ -34,3 +35,5 @@ def test_any_size_of_deviation_is_drawn(tmp_path, panels, spread):
     states = [Panel("State", points[k:], up[k:], deviations[k:], [points[:5]]) for k in range(panels)]
     draw(tmp_path / "p.png", "Title", states)
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
+    margin = imread(tmp_path / "p.png")[:, -5:]
+    assert (margin == margin[0, 0]).all()  # the legend's words end before the picture does

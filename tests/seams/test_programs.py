@@ -193,7 +193,7 @@ def test_programs_hold_the_seams_within_their_limits_unless_all_are_asked_for(to
     assert [bool(seam.exceeded(plan.limits)) for seam in plan.seams] == [edge == edges[1] for edge in sorted(
         edges, key=lambda name: int(name[4:]))]
     notes = write_seams(plan, [tmp_path / "a.src", tmp_path / "a.csv"])
-    assert notes[0] == f"Beyond their limits, and therefore in no program: {edges[1]} (lateral, normal)."
+    assert notes[0] == f"Beyond their limits, and therefore left out of the programs: {edges[1]} (lateral, normal)."
     points = np.array([point for point, _ in read_krl(*((tmp_path / f"a.{kind}").read_text() for kind in (
         "src", "dat")))])
     assert points[1:-1, 2] == pytest.approx(0.0, abs=1e-3)

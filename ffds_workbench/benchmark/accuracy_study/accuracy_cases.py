@@ -41,7 +41,7 @@ _WARPS = {
 _KINDS = ("clean", "one-view", "clean", "dirty")
 WITHOUT_NORMALS = ("free-form-panel", "bend", 15, "one-view")
 WITH_NORMALS = (*WITHOUT_NORMALS[:3], "one-view with normals")
-"""One skin of a thin sheet that moved by half its thickness: points alone do not tell which, a sensor's normals do."""
+"""One skin of a thin sheet that moved by half its thickness: points alone do not show which, a sensor's normals do."""
 _JUDGED = 1500
 """Truth points per face, at most."""
 _DEGENERATE = 1e-9

@@ -21,9 +21,10 @@ _PATIENCE = 10.0
 
 @dataclass(frozen=True)
 class CommandEnd:
-    """How a command ended: exit code, negative for a signal; what it said; processor time in s, most memory in MB."""
+    """How a command ended: exit code, negative for a signal, None if it was waited for in vain; what it said; processor
+    time in s, most memory in MB."""
 
-    code: int
+    code: int | None
     text: str
     seconds: float
     memory: float
@@ -37,12 +38,13 @@ def run(arguments: list[str], said: Path, limit: float) -> CommandEnd:
         _child(arguments, said, limit)
     process = os.pidfd_open(child)
     try:
-        if not select.select([process], [], [], _PATIENCE * limit)[0]:
+        ended = bool(select.select([process], [], [], _PATIENCE * limit)[0])
+        if not ended:
             os.kill(child, signal.SIGKILL)
         _, status, used = os.wait4(child, 0)
     finally:
         os.close(process)
-    return CommandEnd(os.waitstatus_to_exitcode(status), said.read_text("utf-8", errors="replace"),
+    return CommandEnd(os.waitstatus_to_exitcode(status) if ended else None, said.read_text("utf-8", errors="replace"),
                       used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 
 

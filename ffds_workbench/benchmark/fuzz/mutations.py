@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Damage as files suffer it: bits that flip, parts lost, doubled or mixed up, numbers that make no sense."""
+"""Typical damage of files: flipped bits, parts lost, doubled or swapped, numbers that make no sense."""
 from __future__ import annotations
 
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs batches of damaged files, in processes with limits on time and memory, and says what became of them."""
+"""Runs batches of damaged files, in processes with limits on time and memory, and records the outcomes."""
 from __future__ import annotations
 
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads a batch of damaged files in a process that they may take along: models by commands, in forks of it."""
+"""Reads a batch of damaged files in a process that they may crash: models by commands, in forks of it."""
 from __future__ import annotations
 
 import contextlib
@@ -80,6 +80,8 @@ def _of_command(end: CommandEnd) -> str:
         return f"more than {LIMIT:.0f} s"
     if end.memory > MEMORY / 2**20:
         return f"more than {MEMORY >> 30} GB"
+    if end.code is None:
+        return "did not end"
     if end.code == 0:
         return "taken"
     one_line = end.text.count("\n") == 1 and "Internal error" not in end.text

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How the benchmarks' pictures look: one colour per method, told apart also without colour vision."""
+"""How the benchmarks' pictures look: one colour per method, distinguishable without colour vision."""
 from __future__ import annotations
 
 from pathlib import Path

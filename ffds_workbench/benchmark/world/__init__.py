@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""``./ffds benchmark world``: what becomes of model files that nobody has tuned anything to."""
+"""``./ffds benchmark world``: the whole chain on model files that nothing was tuned on."""
 from .run import LIMIT, run
 from .settings import DEFORMATIONS, ScanSettings
 

@@ -17,14 +17,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import Part
-from FreeCAD import Vector
-
 from ... import ROOT
 from ...errors import InputError
 from ..pages import page
-from ..simulated import topology_shapes
-from . import tables
+from . import shapes, tables
 from .settings import DEFORMATIONS, ScanSettings, check_deformations
 
 Progress = Callable[[str], None]
@@ -184,9 +180,7 @@ def _primitives(folder: Path) -> list[Path]:
     """FreeCAD's own shapes as STEP files, which number them anew; those that are there are kept."""
     folder.mkdir(exist_ok=True)
     paths = []
-    tubes = {"tube": Part.makeCylinder(30, 200).cut(Part.makeCylinder(27, 200)),
-             "hollow section": Part.makeBox(60, 40, 150).cut(Part.makeBox(54, 34, 150, Vector(3, 3, 0)))}
-    for name, shape in (*topology_shapes.primitives(), *tubes.items()):
+    for name, shape in shapes.primitives():
         paths.append(folder / f"{name.replace(' ', '_')}.step")
         if not paths[-1].is_file():
             shape.exportStep(str(paths[-1]))

@@ -17,7 +17,7 @@ import Part
 from scipy.spatial import cKDTree
 
 from ... import api
-from ...errors import FfdsError
+from ...errors import FfdsError, RefusedError
 from ..simulated.sheet import to_polyline
 from . import judge as judging
 from .case import WorldTruth
@@ -26,7 +26,7 @@ from .settings import ScanSettings
 
 MADE, BUILT, REGISTERED, JUDGED = "made.json", "as_built.step", "registered.json", "judged.json"
 BUILT_EXACTLY = "as_built.brep"
-"""Where no STEP file can number the edges as the nominal model does."""
+"""Where the STEP file is refused."""
 _FLOOR_SIGMAS, _FLOOR_SIZE = 4.0, 1e-3
 """An edge is where it should be within so many σ of the scan and that share of the part's diagonal."""
 
@@ -52,17 +52,27 @@ def register(folder: Path) -> None:
     begin = time.perf_counter()
     model = api.read_model(_made(folder)["nominal_path"])
     result = api.register(model, api.read_scan(folder / "scan.ply"))
-    built = BUILT if api.step_keeps_numbers(model) else BUILT_EXACTLY
-    api.write(result, folder / built)
+    written = _write(model, result, folder)
     seconds, used = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_SELF)
     (folder / REGISTERED).write_text(json.dumps(
-        {"built": built, "seconds": seconds, "processor": used.ru_utime + used.ru_stime,
-         "megabytes": used.ru_maxrss / 1024}))
+        written | {"seconds": seconds, "processor": used.ru_utime + used.ru_stime,
+                   "megabytes": used.ru_maxrss / 1024}))
     np.savez_compressed(folder / "bands.npz", **_bands(result, _truth(folder)))
 
 
+def _write(model: api.Model, result: api.Result, folder: Path) -> dict[str, str]:
+    """Write the as-built model as STEP, or where that is refused as BREP: the file's name, and what was refused."""
+    try:
+        api.check_model_output(folder / BUILT, model)
+        api.write(result, folder / BUILT)
+    except RefusedError as error:
+        api.write(result, folder / BUILT_EXACTLY)
+        return {"built": BUILT_EXACTLY, "step_refused": str(error)}
+    return {"built": BUILT}
+
+
 def judge(folder: Path) -> None:
-    """What the written file is worth, as it reads back."""
+    """Judge the written file as it is read back."""
     settings, made, built = _job(folder)[1], _made(folder), json.loads((folder / REGISTERED).read_text())["built"]
     floor = _FLOOR_SIGMAS * settings.sigma * settings.scale + _FLOOR_SIZE * made["size"]
     row = judging.judge(Part.read(made["nominal_path"]), folder / built, _truth(folder),

@@ -9,7 +9,6 @@ from typing import Any
 from ..accuracy_study.accuracy_lines import AccuracyLine
 from ..pages.page import Section, Table
 from .judge import FLAGS
-from .stages import BUILT
 
 Row = Mapping[str, Any]
 
@@ -84,14 +83,13 @@ def sections(rows: Sequence[Row]) -> list[Section]:
             "those of true points from the faces of the file as it reads back, evaluated by OCCT; nominal's: of the "
             "same points from the nominal model. A seam, where a face meets itself, is no line on the part: it is "
             "judged across the surface; as lines: with seams as lines, too."]
-    exactly = sorted({row["file"] for row in rows if row["outcome"] == "written" and row["built"] != BUILT})
+    exactly = [[row["file"], row["deformation"], row["step_refused"]] for row in rows
+               if row["outcome"] == "written" and "step_refused" in row]
     if exactly:
-        count = sum(row["outcome"] == "written" and row["built"] == BUILT for row in rows)
-        text.append(f"{count} of {len(rows)} cases are written as STEP. No STEP file can number the edges of these as "
-                    f"the nominal model does, and they are written as BREP: {', '.join(exactly)}.")
-    tables = [verdict, cases] + ([Table("Not written", ["file", "deformation", "step", "exit", "what it said"], others)]
-                                 if others else [])
-    return [Section("Results", text, tables=tables)]
+        text.append(f"Where its STEP file is refused, a model is written as BREP: {len(exactly)} of {len(rows)} cases.")
+    tables = [Table("Not written", ["file", "deformation", "step", "exit", "what it said"], others),
+              Table("Written as BREP", ["file", "deformation", "why not as STEP"], exactly)]
+    return [Section("Results", text, tables=[verdict, cases, *(table for table in tables if table.rows)])]
 
 
 def _cells(row: Row) -> list[str]:

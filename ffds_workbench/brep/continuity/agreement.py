@@ -2,9 +2,9 @@
 """What edited faces agree on along their edges.
 
 Each face was registered by itself; where two of them meet, their displacements differ by noise or more. A scan shows
-how a face moves along its normal and hardly how it slides within itself. So along a shared edge, and at a vertex, every
-edited face has its say along its own normal, and where no normal points the mean holds. Each face spreads its
-correction smoothly into its own interior.
+how a face moves along its normal but hardly how it slides within itself. So along a shared edge, and at a vertex, each
+edited face determines the displacement along its own normal, and in the remaining directions the mean is taken. Each
+face spreads its correction smoothly into its own interior.
 """
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Rim:
     ----------
     samples : points along all edges of the edited faces
     displacement : (n, 3) what the faces agree on, in mm
-    dispute : (n,) how far in mm the faces are apart there, counting for each what it has a say in; fades along edges
+    dispute : (n,) disagreement of the faces there in mm, of each mainly along its normal; fades along edges
     sides : for each edited face, its own displacement along its edges
     """
 

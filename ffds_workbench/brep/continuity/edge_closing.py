@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Closes what a solve over all faces leaves along the edges: separate fields that agree there to about 1e-3 mm.
+"""Closes the gaps that a solve over all faces leaves along edges, where its fields agree to about 1e-3 mm only.
 
 Every face keeps its own field and adds a small correction that is exactly (agreed displacement − own displacement)
 on all its edges and fades inside. Since neighbours take the same agreed displacement, edges close to the fidelity of

@@ -99,7 +99,7 @@ class _Surroundings:
 
 def held_edges(workpiece: Workpiece, edited: frozenset[int], frozen: frozenset[int], smooth: RadialField,
                tree: cKDTree, size: float) -> Held:
-    """Grow the adapting faces until what stays is far enough, and hold the rest.
+    """Grow the set of adapting faces until what stays is far enough away, and hold the rest.
 
     The faces that share a vertex with an edited face adapt; then, while an edge that must stay is nearer to the edited
     faces than five times the displacement there, or than it takes to hold it, the faces across it too. Frozen faces

@@ -5,8 +5,8 @@
 inside; χ is 0 along the edges of the faces that stay, 1 on the edited faces. Faces around the edited ones move by D;
 an edited face moves by exactly its own registered displacement, which D equals along its edges to 1e-5 mm. Where a
 displacement is too rough for that, or disagrees with itself at a seam or a pole, it passes into D in a rim. So faces
-that share an edge, a seam or a pole move alike there. This module puts the pieces together; the rebuild makes surfaces
-of them.
+that share an edge, a seam or a pole have the same displacement there. This module puts the pieces together; the rebuild
+makes surfaces of them.
 """
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""FreeCAD documents of strangers: a copy that says what theirs says of shapes, and has nothing run or opened.
+"""Untrusted FreeCAD documents: a copy with the same shapes that neither runs code nor opens other files.
 
 Opening a document, FreeCAD imports the Python modules that its proxies name, and makes objects of their classes; it
 imports the module that is named before ``::`` in each object's type; and it opens the documents that links lead to.

@@ -39,7 +39,7 @@ class Model:
     shape : Part.Shape
     label : the name of the product or of the document object
     decoration : names and colours of its faces and solids
-    unit : the unit that its file declared, "" for mm; the shape is in mm all the same
+    unit : the unit that its file declared, "" for mm; the shape is in mm in any case
     """
 
     shape: Part.Shape

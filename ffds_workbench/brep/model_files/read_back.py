@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a written file reads back as, compared with the shape that went into it, number by number."""
+"""A written file, read back and compared with the shape that was written, number by number."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -52,7 +52,7 @@ class ReadBack:
                 if kind not in free and here[kind] != there[kind]]
 
     def differences(self, written: Topology) -> str:
-        """In words what another number would mean in the file, empty where all mean the same."""
+        """Which numbers would refer to something else in the file, in words; empty if none."""
         counts = self.counts(written)
         if counts:
             return "hold " + ", ".join(counts)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads a model file in the process that it runs in: FreeCAD's importers, and what the file says beside the shape.
+"""Reads a model file in the current process: FreeCAD's importers, and what the file contains besides the shape.
 
-Open CASCADE ends its process or never comes back where a file is damaged in some ways: foreign files are read by
-`reading`, which runs this module in a process of its own. It loads FreeCAD and Part alone, so that it starts quickly.
+Open CASCADE crashes or hangs on some damaged files: foreign files are read by `reading`, which runs this module in a
+separate process. It loads FreeCAD and Part alone, so that it starts quickly.
 """
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Foreign model files are read in a process of their own, which they may take along: `reader` runs there.
+"""Foreign model files are read in a separate process, which they may crash: `reader` runs there.
 
-It may take as much time and memory as a sound file of that size could need. `begin` starts it early, so that it runs
-beside what else there is to do; this module loads nothing for that. `content` waits for it.
+It may take as much time and memory as a sound file of that size could need. `begin` starts it early, so that it runs in
+parallel with other work; this module loads nothing for that. `content` waits for it.
 """
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ _BEGUN: dict[tuple[Path, str | None], Reading] = {}
 
 def begin(path: Path, label: str | None = None) -> None:
     """Begin to read a file that `content` will be asked for; nothing happens where there is none to read."""
-    with suppress(OSError):  # `content` says it
+    with suppress(OSError):  # `content` reports it
         if path.suffix.lower() in FORMATS and path.is_file() and path.stat().st_size:
             _BEGUN[path, label] = _begun(path, label)
 
@@ -95,7 +95,7 @@ def content(path: Path, label: str | None) -> tuple[Part.Shape, dict[str, Any]]:
 
 
 def _finished(path: Path, under_way: Reading) -> tuple[Part.Shape, dict[str, Any]]:
-    """What a reading comes to, waited for."""
+    """Wait for the result of a reading."""
     folder = Path(under_way.folder.name)
     late = not _waited_for(under_way)
     if late or not (folder / "about.json").exists():
@@ -163,7 +163,7 @@ def _end(process: subprocess.Popen[bytes], folder: tempfile.TemporaryDirectory[s
 
 
 def run(path: str, name: str, label: str, folder: str, seconds: str, memory: str) -> None:
-    """Read a file in this process, which is there for nothing else; ``name`` is what it is called in messages."""
+    """Read a file in this process, which serves nothing else; messages call it ``name``."""
     find_freecad.activate()
     _limit(float(seconds), int(memory))
     from . import reader

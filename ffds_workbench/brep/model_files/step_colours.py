@@ -3,7 +3,7 @@
 
 FreeCAD reads and writes them only with its GUI. Here the faces of the text are matched with the faces of the shape by
 their order and surface types; where that does not fit (assemblies that place a part twice) the file keeps its
-geometry and goes without the decoration.
+geometry and loses the decoration.
 """
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _END = b"END-ISO-10303-21;"
 
 @dataclass(frozen=True)
 class Decoration:
-    """What a STEP file says beside the geometry; empty tuples where it says nothing.
+    """What a STEP file contains besides the geometry; empty tuples where it contains nothing.
 
     Attributes
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Edges and vertices that belong to no face, in a STEP text: in their place among the solids, and whole.
+"""Edges and vertices that belong to no face, in a STEP text: complete, and at their place among the solids.
 
 OCCT writes solids first and every free edge as a set of its own after them, and drops free vertices: numbers would
 change. Here the items of the representation are put into the shape's order, and what lies together in a compound

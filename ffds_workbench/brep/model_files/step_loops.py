@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a face's loops begin, so that a reader that meets their edges one by one numbers them alike.
+"""Where a face's loops begin, so that a reader that meets their edges one by one gives them the same numbers.
 
-Pure arrangement of edge uses: nothing here knows of files or geometry.
+Pure arrangement of edge uses, without files or geometry.
 """
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stores a shape so that its STEP file reads back with the same numbers.
 
-Edges and vertices are numbered as the walk through faces and loops meets them. A STEP file says less than a shape: no
-edge lists its end before its start, and a loop that runs against its face is turned round where OCCT's reader mends
-something in it, be it a pcurve that ends a hair off its vertex (``ShapeFix_Face`` makes the wire anew, FORWARD, with
-its edges in the other order). So the loops of every free-form face are stored along the face, begun so that the edges
-that they meet first keep their order; where no beginning does that, the surface is turned, and with it the sense of its
-loops. An edge is turned where its vertices, both met there first, would change places.
+Edges and vertices are numbered in the order in which a walk through faces and loops meets them. A STEP file holds less
+than a shape: no edge lists its end before its start, and a loop that runs against its face is reversed where OCCT's
+reader repairs something in it, be it a pcurve that ends a hair off its vertex (``ShapeFix_Face`` makes the wire anew,
+FORWARD, with its edges in the other order). So the loops of every free-form face are stored along the face, begun so
+that the edges that they meet first keep their order; where no beginning does that, the surface is turned, and with it
+the sense of its loops. An edge is turned where its vertices, both met there first, would change places.
 """
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from typing import cast
 import numpy as np
 import Part
 
-from ... import compat
 from ...registration.arrays import Array
 from ..occt_text.curves import read_curve
 from ..occt_text.instances import Instance, Locations, composed, product, walk
@@ -143,7 +142,8 @@ class _Arrangement:
                 self._turn(face.shape, surface.turned(), [backwards(loop) for loop in begun_loops])
 
     def _is_ring(self, loop: Loop) -> bool:
-        """Whether the loop is two seams that meet in one vertex, as on a torus."""
+        """Whether the loop is two seams that meet in one vertex, as on a torus: by that they follow each other in any
+        order, and those who draw a torus list them in either."""
         return len(loop) == 4 and len({use.edge for use in loop}) == 2 == len(
             {use.edge for use in loop if self._ends[use.edge][0] == self._ends[use.edge][1]})
 
@@ -175,7 +175,7 @@ class _Arrangement:
 
     def _chained(self, face: int, loop: Loop) -> Loop | None:
         """The loop in order, whatever the order it is stored in."""
-        if in_order(loop, self._ends):
+        if in_order(loop, self._ends) and not self._is_ring(loop):
             return loop
         uv = [self._uv(face, use) for use in loop]
         known = all(ends is not None for ends in uv)
@@ -199,8 +199,7 @@ class _Arrangement:
             turned = begun(loop, met, self._degenerated)
             if turned is None:
                 return None
-            turned_back = compat.turns_rings() and self._is_ring(loop)
-            result.append(turned[1:] + turned[:1] if turned_back else turned)
+            result.append(turned)
             met.update(use.edge for use in loop)
         return result
 

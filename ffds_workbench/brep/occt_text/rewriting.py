@@ -140,7 +140,7 @@ class Rewriter:
             first, last = float(new.curve.knots[0]), float(new.curve.knots[-1])
             items.append(Curve3d(len(self._new.curves_3d), 0, first, last))
         if any(face not in self._faces for face in self._instances.edge_faces[index]):
-            # What other faces, still as they were, say about the edge.
+            # The edge's representations on other, unchanged faces.
             items += [item for item in old.representations if isinstance(item, CurveOnSurface)]
         return replace(old, tolerance=new.tolerance, representations=tuple(items + on_surfaces))
 

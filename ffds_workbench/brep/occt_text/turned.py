@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Geometry records of a BREP text run the other way: planes, B-spline surfaces, their pcurves, and curves.
+"""Reversed geometry records of a BREP text: planes, B-spline surfaces, their pcurves, and curves.
 
 The parameter k becomes a + b − k, so that every range stays what it was.
 """

@@ -13,6 +13,7 @@ from .export_as_built import ExportAsBuilt
 from .export_program import ExportProgram
 from .find_seams import FindSeams
 from .import_scan import ImportScan
+from .learn.show_documentation import ShowDocumentation
 from .load_example import LoadExample
 from .repoint_references import RepointReferences
 from .scan.prepare_scan import PrepareScan
@@ -24,7 +25,7 @@ GROUPS = ((ImportScan, SimulateScan, PrepareScan, AlignScan, AlignByPoints),
           (DeformFaces, DeformWorkpiece, ShowLattice, RepointReferences, ExportAsBuilt),
           (ShowDeviation,),
           (FindSeams, ExportProgram, AddTrajectory),
-          (LoadExample,))
+          (LoadExample, ShowDocumentation))
 """Scan, deform, inspect, weld, and the example: parted by lines in menu and toolbar."""
 COMMANDS = tuple(command for group in GROUPS for command in group)
 TOOLBAR = [name for group in GROUPS for name in (*(command.NAME for command in group), "Separator")][:-1]

@@ -34,8 +34,8 @@ class AlignScan(Command):
         call(scan.Document, "Align scan", f"align_scan({name_of(part)}, {name_of(scan)}, mode='global')")
         pose = found.alignment
         if pose.verdict == AMBIGUOUS:
-            tell(tr("The scan fits the part in {count} poses alike, and nothing tells which one is right. Look at the "
-                    "scan, or undo and align it by three points.").format(count=len(pose.poses)))
+            tell(tr("The scan fits the part equally well in {count} poses, and nothing shows which one is right. "
+                    "Look at the scan, or undo and align it by three points.").format(count=len(pose.poses)))
         elif pose.confidence < _SURE:
             tell(tr("The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points."
                     ).format(reason=said(pose.text)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""FFDS_RepointReferences: what refers to the nominal part refers to the selected as-built one from now on."""
+"""FFDS_RepointReferences: makes what refers to the nominal part refer to the selected as-built one."""
 from __future__ import annotations
 
 from ..running import call, name_of, tell

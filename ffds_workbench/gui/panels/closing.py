@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""When a task panel closes by itself: with Esc, and with its document; FreeCAD leaves it open, pointing at nothing.
+"""Closes a task panel with Esc and with its document, where FreeCAD would leave it open.
 """
 from __future__ import annotations
 

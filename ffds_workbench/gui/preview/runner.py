@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""When the preview is computed: at once and coarsely while a control moves, exactly when it rests; in the background
-where that takes time."""
+"""When the preview is computed: immediately and coarsely while a control moves, exactly once it rests; in the
+background if that takes time."""
 from __future__ import annotations
 
 from collections.abc import Callable

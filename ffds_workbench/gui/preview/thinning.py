@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How few scan points a preview looks at while a control moves; when it rests, all of them count."""
+"""How many scan points a preview uses while a control moves; once it rests, all of them count."""
 from __future__ import annotations
 
 import numpy as np
@@ -9,7 +9,7 @@ from ...registration.arrays import Array
 _FACE_POINTS, _WHOLE_POINTS = 3000, 8000
 """Points of one face and of a whole part whose deviations are shown (unit: a picture hardly changes with more)."""
 FITTED_POINTS = 4000
-"""Points that a face is fitted to (unit: so few that the picture follows the hand)."""
+"""Points that a face is fitted to (unit: so few that the picture follows the mouse)."""
 
 
 def every_nth(count: int) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The alignment of a scan from points picked on it and on the part: the way out where no pose is found by itself."""
+"""The alignment of a scan from points picked on it and on the part: for scans that are not aligned automatically."""
 from __future__ import annotations
 
 import hashlib

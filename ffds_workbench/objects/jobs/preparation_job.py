@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The preparation of scans that lie in a document: cropped, cleaned, thinned, several of them made one."""
+"""The preparation of scans in a document: cropped, cleaned, thinned, several of them fused."""
 from __future__ import annotations
 
 import hashlib

@@ -20,7 +20,7 @@ _last: dict[str, SeamPlan] = {}
 
 @dataclass(frozen=True)
 class SeamWishes:
-    """What `api.plan_seams` is asked for beside the models; see there. ``tolerance`` is its ``auto``."""
+    """The arguments of `api.plan_seams` besides the models; see there. ``tolerance`` is its ``auto``."""
 
     edges: tuple[str, ...] = ()
     tolerance: float | None = None

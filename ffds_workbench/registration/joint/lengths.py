@@ -16,7 +16,7 @@ _CLEAN = 3e-3
 """Of the reach: noise below which a scan counts as clean (unit: ten times what the model leaves at best)."""
 _POSE = 1 / 3
 """Of the reach: how far a solid may sit from its place as a whole (unit)."""
-_TOGETHER = 3e-3
+_EDGE_AGREEMENT = 3e-3
 """Standard deviation with which faces agree along an edge, over the noise (unit: far below it)."""
 _NOT_CONVERGED = 1 / 6
 """Of the reach: a last step from which on nothing is known (unit)."""
@@ -76,9 +76,9 @@ class Lengths:
         return self.reach * _POSE
 
     @property
-    def together(self) -> float:
+    def edge_agreement(self) -> float:
         """Standard deviation with which faces agree along an edge."""
-        return self.point * _TOGETHER
+        return self.point * _EDGE_AGREEMENT
 
     @property
     def not_converged(self) -> float:

@@ -64,8 +64,9 @@ def refuse_unsound(problem: Problem, state: State) -> None:
         raise RefusedError(f"The displacement found, {moved:.0f} mm, is larger than the part ({problem.size:.0f} mm): "
                            "align the scan first.")
     if state.last_step > problem.lengths.not_converged:
-        raise RefusedError(f"The registration did not converge (the last step was {state.last_step:.2f} mm): the scan "
-                           "does not constrain the part; align it first, or freeze faces.")
+        name = "the part" if state.face_steps is None else problem.part.faces[int(state.face_steps.argmax())].name
+        raise RefusedError(f"The registration did not converge (the last step moved {name} by {state.last_step:.2f} "
+                           "mm): the scan does not constrain the part; align it first, or freeze faces.")
     _refuse_off_scan(problem, state)
     normal, area = normals(jet, problem.cells.outward)
     nominal_normal, nominal_area = normals(problem.cells.nominal, problem.cells.outward)

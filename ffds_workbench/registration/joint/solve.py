@@ -59,15 +59,15 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
     """
     settings = settings or JointSettings()
     report = progress or (lambda stage, share: None)
-    problem = make_problem(part, scan, settings, {}, scan_normals)
-    steps = settings.stages(problem.lengths)
+    problem = make_problem(part, scan, settings, {}, scan_normals)         # steps 1 and 2: lattices, rows (assembly.py)
+    steps = settings.stages(problem.lengths)                               # stiff first, soft later
     report("joint solve", 0.0)
-    state = _run_soft_stages(problem, steps, _stiff_shape(problem, steps), report)
-    torn = torn_faces(problem, state)
+    state = _fit(problem, steps, report)                                   # steps 3 to 5, Gauss-Newton
+    torn = torn_faces(problem, state)                                      # small faces that fit the scan in two places
     if torn:
         problem = problem.without_points_on(torn)
-        state = _run_soft_stages(problem, steps, _stiff_shape(problem, steps), report)
-    finer = faces_to_refine(problem, state) if settings.refine else {}
+        state = _fit(problem, steps, report)
+    finer = faces_to_refine(problem, state) if settings.refine else {}     # where τ² is over a third of τ² + σ²/N
     if finer:
         report("finer lattice", 1.0)
         coarse, problem = problem, make_problem(part, scan, settings, finer).without_points_on(torn)
@@ -75,17 +75,23 @@ def register_joint(part: JointPart, scan: Array, settings: JointSettings | None 
         for stage in steps:
             if stage.soft:
                 state = run_stage(problem, stage, state)
-    state = replace(state, control_points=close_seams(part, problem.lattices, state.control_points))
+    closed = close_seams(part, problem.lattices, state.control_points)     # d at the end: (c₀ + 4 c₁ + c₂)/6
+    state = replace(state, control_points=closed)
     refuse_unsound(problem, state)
     return replace(summarise(problem, state), torn=tuple(part.faces[index].name for index in torn))
 
 
-def _stiff_shape(problem: Problem, steps: tuple[Stage, ...]) -> State:
-    """The end of the stiff stages, with the right skin of a sheet on the scan."""
-    state = start(problem)
-    sides, told = candidate_outward_normals(problem)
-    return choose_skin(problem, [_run_stiff_stages(problem, steps, replace(state, outward=outward), len(sides) > 1)
-                                 for outward in sides], told)
+def _fit(problem: Problem, steps: tuple[Stage, ...], report: Progress) -> State:
+    """The shape after all stages, from the nominal one."""
+    nominal = start(problem)
+    sides, by_normals = candidate_outward_normals(problem)                 # which side of a sheet each point shows
+    fits = [_run_stiff_stages(problem, steps, replace(nominal, outward=side), len(sides) > 1) for side in sides]
+    state = choose_skin(problem, fits, by_normals)                         # the skin: cost, walls, normals, movement
+    for number, stage in enumerate(steps):
+        if stage.soft:
+            report("joint solve", number / len(steps))
+            state = _run_soft_stage(problem, stage, state)
+    return state
 
 
 def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, compared: bool) -> State:
@@ -94,14 +100,6 @@ def _run_stiff_stages(problem: Problem, steps: tuple[Stage, ...], state: State, 
     for stage in stiff:
         if state.last_step > _NO_MORE_STIFF_STAGES * problem.lengths.start or (compared and stage is stiff[-1]):
             state = run_stage(problem, stage, state)
-    return state
-
-
-def _run_soft_stages(problem: Problem, steps: tuple[Stage, ...], state: State, report: Progress) -> State:
-    for number, stage in enumerate(steps):
-        if stage.soft:
-            report("joint solve", number / len(steps))
-            state = _run_soft_stage(problem, stage, state)
     return state
 
 
@@ -128,7 +126,7 @@ def run_stage(problem: Problem, stage: Stage, state: State,
         cache = replace(cache, matrices=cache.matrices.renewed_thickness(problem, state.control_points), body=None)
     state = replace(state, cache=cache)
     for number in range(stage.iterations):
-        before, judged = state, update_prior_trust(problem, state, stage)
+        before, judged = state, update_prior_trust(problem, state, stage)  # MacKay 1992, eq. 4.8
         if not promising(judged):
             return judged
         state = gauss_newton_step(problem, stage, judged)

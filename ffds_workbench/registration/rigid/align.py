@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import Array
 from ..scan_points import sketch_of, table_of_sketch
 from .alignment_result import FAILED, Alignment
-from .evidence import LooseScan, match_scan, weigh_match
+from .evidence import UnalignedScan, match_scan, weigh_match
 from .hypothesis import Hypothesis, choose, clearly_right, is_good, matched_on, promising, refined
 from .model import Target
 from .polish import polish
@@ -79,7 +79,7 @@ def _align(target: Target, points: Array, effort: Effort, scale: float,
     return alignment_of(scan, answer, hypotheses, scale)                   # good enough, and the only one?
 
 
-def _look_at(target: Target, points: Array, effort: Effort, generator: np.random.Generator) -> LooseScan:
+def _look_at(target: Target, points: Array, effort: Effort, generator: np.random.Generator) -> UnalignedScan:
     """Even points of the scan, those of a table left out."""
     sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
     extent = np.linalg.norm(sketch.points - sketch.points.mean(axis=0), axis=1).max()
@@ -90,10 +90,10 @@ def _look_at(target: Target, points: Array, effort: Effort, generator: np.random
     if table is not None:
         points = points[table.in_front(points)]
         sketch = sketch_of(points, generator, effort.points, effort.pool, effort.finer)
-    return LooseScan(target, sketch, table)
+    return UnalignedScan(target, sketch, table)
 
 
-def _search(scan: LooseScan, starts: Array, effort: Effort, generator: np.random.Generator) -> list[Hypothesis]:
+def _search(scan: UnalignedScan, starts: Array, effort: Effort, generator: np.random.Generator) -> list[Hypothesis]:
     """The most promising poses, refined and weighed, rung by rung on more points and with more deformation; none where
     the answer has to be clear and is not."""
     found = propose(scan, starts, effort.stages, generator)
@@ -112,7 +112,7 @@ def _search(scan: LooseScan, starts: Array, effort: Effort, generator: np.random
     return [] if effort.clear else hypotheses
 
 
-def _polished(whole: LooseScan, scan: LooseScan, best: Hypothesis) -> Answer:
+def _polished(whole: UnalignedScan, scan: UnalignedScan, best: Hypothesis) -> Answer:
     """The best pose on all points of the ``whole`` scan, weighed on those of ``scan``: of the fits with the deformation
     and without one the better counts."""
     pose, deformation = polish(whole.target, whole.sketch, best.pose, best.normals_of(whole.sketch, best.pose),

@@ -20,7 +20,7 @@ _LEAST_EXPLAINED = 12
 
 
 @dataclass(frozen=True)
-class LooseScan:
+class UnalignedScan:
     """A scan that may show the part, in an unknown pose.
 
     Attributes
@@ -40,11 +40,11 @@ class LooseScan:
         return self.sketch.noise > self.target.settings.evidence.hiding_noise * self.target.size
 
     @property
-    def coarse(self) -> LooseScan:
+    def coarse(self) -> UnalignedScan:
         """The same before a part with a quarter of the samples."""
         return replace(self, target=self.target.coarse)
 
-    def every(self, stride: int) -> LooseScan:
+    def every(self, stride: int) -> UnalignedScan:
         """The same of fewer points, one of every ``stride``."""
         return self if stride == 1 else replace(self, sketch=self.sketch.every(stride))
 
@@ -79,7 +79,7 @@ class Evidence:
         return 0.5 * (self.score + self.explained)
 
 
-def match_scan(scan: LooseScan, pose: Array, normals: Array, rounds: Rounds,
+def match_scan(scan: UnalignedScan, pose: Array, normals: Array, rounds: Rounds,
                start: DisplacementField | None = None) -> tuple[Match, DisplacementField]:
     """The scan at a ``pose`` (4, 4), with outward ``normals`` (n, 3) of its sketch in model coordinates, matched with
     the part in ``rounds`` of a smooth deformation that goes on from ``start``; see ``match_deformed``."""
@@ -89,7 +89,7 @@ def match_scan(scan: LooseScan, pose: Array, normals: Array, rounds: Rounds,
                           () if scan.hides_sides else rounds, start)
 
 
-def weigh_match(scan: LooseScan, pose: Array, normals: Array, found: Match) -> Evidence:
+def weigh_match(scan: UnalignedScan, pose: Array, normals: Array, found: Match) -> Evidence:
     """What a match says of a pose.
 
     Parameters
@@ -113,12 +113,12 @@ def weigh_match(scan: LooseScan, pose: Array, normals: Array, found: Match) -> E
     return Evidence(float(explained.mean()), misfit, coverage, missing, pierced, bent, score)
 
 
-def misfit_of(scan: LooseScan, normals: Array, found: Match) -> float:
+def misfit_of(scan: UnalignedScan, normals: Array, found: Match) -> float:
     """The misfit alone of the evidence that ``weigh_match`` gives."""
     return _explained(scan, normals, found)[2]
 
 
-def _explained(scan: LooseScan, normals: Array, found: Match) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
+def _explained(scan: UnalignedScan, normals: Array, found: Match) -> tuple[NDArray[np.bool_], NDArray[np.bool_], float]:
     """Which points face as the part does, which of them lie on it, and the misfit of all."""
     target, noise, settings = scan.target, scan.sketch.noise, scan.target.settings.evidence
     beside = _distance_beyond_faces(target, found.points, found.nearest, found.height, found.normal)

@@ -12,7 +12,7 @@ from ..arrays import Array
 from ..motions import angle, apply, shift
 from ..scan_points import Sketch
 from .deformation import DisplacementField, Match
-from .evidence import Evidence, LooseScan, match_scan, misfit_of, weigh_match
+from .evidence import Evidence, UnalignedScan, match_scan, misfit_of, weigh_match
 from .model import Target
 from .polish import is_deformed
 from .refine import refine
@@ -36,7 +36,7 @@ class Hypothesis:
     match, deformation : the scan matched with the part through that deformation
     """
 
-    scan: LooseScan
+    scan: UnalignedScan
     pose: Array
     signs: Array
     normals: Array
@@ -60,7 +60,7 @@ class Hypothesis:
         return outward_normals(sketch, self.signs) @ pose[:3, :3].T
 
 
-def refined(scan: LooseScan, pose: Array, signs: Array, rung: Rung, effort: Effort) -> Hypothesis:
+def refined(scan: UnalignedScan, pose: Array, signs: Array, rung: Rung, effort: Effort) -> Hypothesis:
     """The pose refined against the side of the part that the scan shows, matched in the rung's rounds.
 
     Parameters
@@ -83,7 +83,7 @@ def matched_on(known: Hypothesis, rung: Rung) -> Hypothesis:
     return replace(known, match=match, deformation=deformation)
 
 
-def _on_side(scan: LooseScan, pose: Array, signs: Array, effort: Effort) -> tuple[Array, Array]:
+def _on_side(scan: UnalignedScan, pose: Array, signs: Array, effort: Effort) -> tuple[Array, Array]:
     """The pose after a few steps, and the outward normals of the sketch in the model's frame."""
     target, gate = scan.target, _GATE * scan.target.size
     some = slice(None, None, effort.refine_stride)
@@ -100,7 +100,7 @@ def outward_normals(sketch: Sketch, signs: Array) -> Array:
     return signs[np.where(sketch.piece < len(signs), sketch.piece, 0)][:, None] * sketch.normals
 
 
-def _without_stray_normals(scan: LooseScan, pose: Array, normals: Array, steps: int) -> tuple[Array, Array]:
+def _without_stray_normals(scan: UnalignedScan, pose: Array, normals: Array, steps: int) -> tuple[Array, Array]:
     """The pose refined in some more steps, and the normals, once those few are turned round whose points then lie on
     the part, and do not as they are."""
     target, settings = scan.target, scan.target.settings.verdict

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from ..motions import angle, apply, shift
 from .alignment_result import AMBIGUOUS, FAILED, OK, Alignment, CandidatePose
-from .evidence import Evidence, LooseScan
+from .evidence import Evidence, UnalignedScan
 from .hypothesis import Hypothesis
 from .polish import polish
 from .settings import VerdictSettings
@@ -27,7 +27,7 @@ class Answer:
     normals: Array
 
 
-def alignment_of(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis], scale: float) -> Alignment:
+def alignment_of(scan: UnalignedScan, best: Answer, hypotheses: Sequence[Hypothesis], scale: float) -> Alignment:
     """The verdict: is the best pose good enough, and does another one fit as well?
 
     Parameters
@@ -65,7 +65,7 @@ def _why_failed(evidence: Evidence, settings: VerdictSettings) -> str:
             f"{100 * evidence.coverage:.0f} % of the part is covered at the best pose found")
 
 
-def _rivals(scan: LooseScan, best: Answer, hypotheses: Sequence[Hypothesis], symmetry: Symmetry,
+def _rivals(scan: UnalignedScan, best: Answer, hypotheses: Sequence[Hypothesis], symmetry: Symmetry,
             ) -> list[CandidatePose]:
     """Other poses that fit as well as the best: the part's symmetry, and what else the search found."""
     target, settings, score = scan.target, scan.target.settings.verdict, best.evidence.score

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """ASTM E57 (ASTM E2807): the points and normals of all its scans, placed by their poses, in double precision.
 
-Read here and not with FreeCAD's importer, which leaves the poses out and rounds to single precision: several scans
-would fall onto each other. The file is text (XML) that points into binary sections; every page of the file ends with a
+Read here and not with FreeCAD's importer, which ignores the poses and rounds to single precision: several scans would
+be put on top of each other. The file is text (XML) that points into binary sections; every page of the file ends with a
 checksum that is not part of either.
 """
 from __future__ import annotations

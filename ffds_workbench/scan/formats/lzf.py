@@ -10,7 +10,7 @@ LARGEST_GAIN = 88
 
 
 def decompress(data: bytes, size: int) -> bytes:
-    """The ``size`` bytes that ``data`` stands for.
+    """Decompress ``data`` to ``size`` bytes.
 
     A byte below 32 goes before one more literal bytes than it says. Any other begins a reference to what is there
     already: its three high bits, and the next byte where they are all set, are the length less two, its five low bits

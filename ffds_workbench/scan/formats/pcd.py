@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Point Cloud Library PCD: ascii, binary and binary_compressed, in the precision of the file.
 
-Read here and not with open3d because open3d loses doubles and cut-off rows without a word, and ends the whole process
+Read here and not with open3d because open3d silently loses double precision and cut-off rows, and crashes the process
 where a compressed file is damaged.
 """
 from __future__ import annotations

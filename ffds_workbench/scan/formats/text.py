@@ -4,7 +4,7 @@
 What is recognised: comment lines (``#``, ``//``, ``%``, ``!``), a header that names the columns, a first line with the
 number of points (pts), separators blank, tab, comma and semicolon, a decimal comma where the separator is not a comma,
 and missing values, which count as rows that are not finite. Normals are the columns named so or, where none are named,
-the fourth to sixth; whether those are normals or colours, their numbers tell.
+the fourth to sixth; their values show whether these are normals or colours.
 """
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _LINE_START = 4096
 
 @dataclass(frozen=True)
 class _Beginning:
-    """What the first lines of a file tell.
+    """What the first lines of a file state.
 
     Attributes
     ----------
@@ -157,7 +157,7 @@ def _parse(path: Path, body: bytes, first: int, separator: str | None, columns: 
 
 def _parse_slowly(path: Path, body: bytes, first: int, separator: str | None,
                   columns: list[int]) -> NDArray[np.float64]:
-    """Line by line: missing values become NaN, and what is no point is named with its line."""
+    """Line by line: missing values become NaN, and the line of anything that is not a point is named."""
     values = array("d")
     last = max(columns)
     for number, line in enumerate(io.TextIOWrapper(io.BytesIO(body), "utf-8", errors="replace"), first + 1):

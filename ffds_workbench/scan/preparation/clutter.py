@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is no part of the part: things that stand apart, and single points."""
+"""Points that do not belong to the part: things that stand apart, and single points."""
 from __future__ import annotations
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The part of a scan that is looked at: a box, or the neighbourhood of the model."""
+"""Which points of a scan are kept: those in a box, or near the model."""
 from __future__ import annotations
 
 from collections.abc import Sequence

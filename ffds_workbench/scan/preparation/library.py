@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""open3d, loaded when a step needs it (half a second), and said to be missing where it is."""
+"""open3d, loaded when a step needs it (half a second), with an error that says where it is missing."""
 from __future__ import annotations
 
 import importlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What preparing a scan shall do, and what it did."""
+"""The settings of scan preparation, and its result."""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -38,7 +38,7 @@ class PreparationSettings:
 
     Raises
     ------
-    InputError : lengths that are none
+    InputError : a length is not positive, or settings contradict each other
     """
 
     poses: tuple[Array, ...] | None = None

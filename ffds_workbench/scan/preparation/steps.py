@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The whole way from what the sensor saw to what fits the part; each step knows the scan as the ones before left it."""
+"""All steps from the raw scan to one that is ready for registration; each works on the result of those before."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -49,7 +49,7 @@ def prepare(scans: Sequence[PointCloud], settings: PreparationSettings, surface:
             names: Sequence[str] = (), progress: Progress = lambda text: None) -> PreparedScan:
     """Fuse scans, crop them, take the table, clutter and outliers away, estimate normals and thin.
 
-    Steps that take points away leave the others as they are, to the last digit; thinning averages them.
+    Steps that remove points leave the others unchanged to the last digit; thinning averages them.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def _fused(scans: Sequence[PointCloud], settings: PreparationSettings, names: Se
 
 
 def _clean(work: _Work, settings: PreparationSettings, progress: Progress) -> None:
-    """Take away the table, clutter and outliers, in this order: each is told more surely without the one before."""
+    """Remove the table, clutter and outliers, in this order: each is easier to recognise without the one before."""
     spacing, up = spacing_of(work.points), None
     if settings.remove_plane:
         progress("Looking for the table")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The plane that a part stands on, told from the part's own planes by what lies around it."""
+"""The plane that a part stands on, distinguished from the part's own planes by what lies around it."""
 from __future__ import annotations
 
 import numpy as np

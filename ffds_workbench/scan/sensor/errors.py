@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What goes wrong with a scan: noise, gaps, outliers and shots that do not fit together."""
+"""The errors of a scan: noise, gaps, outliers and misaligned shots."""
 from __future__ import annotations
 
 import numpy as np

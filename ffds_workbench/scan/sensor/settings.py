@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the virtual sensor is and what goes wrong with it."""
+"""The virtual sensor and its errors."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Takes the shots and puts them together: the virtual sensor, top to bottom."""
+"""Takes the shots and fuses them: the virtual sensor, top to bottom."""
 from __future__ import annotations
 
 from dataclasses import dataclass

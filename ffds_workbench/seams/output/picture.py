@@ -200,7 +200,7 @@ def _legend(axes: Any, plan: SeamPlan) -> None:
 
 
 def _view(towards: Array) -> Array:
-    """Rows right, up and towards the viewer, (3, 3): the seams from where the torch is, a little aside."""
+    """Rows right, up and towards the viewer, (3, 3): the seams seen from the torch, slightly from the side."""
     if np.linalg.norm(towards) < 0.2:
         towards = np.array([0.6, -0.9, 0.7])
     towards = towards / np.linalg.norm(towards) + np.array([0.35, -0.3, 0.3])

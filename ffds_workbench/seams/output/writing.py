@@ -11,15 +11,19 @@ from ...report import record
 from ..clearance import blocked_ways
 from ..measured import MeasuredSeam
 from ..plan import SeamPlan
+from ..programs.fanuc import ls_text
+from ..programs.kawasaki import as_text
 from ..programs.krl import krl_texts
-from ..programs.moves import RobotSettings, SeamMoves, moves, program_name
+from ..programs.moves import PlannedMoves, RobotSettings, SeamMoves, moves, program_name
 from ..programs.rapid import rapid_text
 from ..programs.urscript import urscript_text
+from ..programs.yaskawa import jbi_text
 from .picture import draw
 from .table import csv_text
 
-PROGRAMS = (".src", ".mod", ".script", ".fcstd")
+PROGRAMS = (".src", ".mod", ".script", ".ls", ".jbi", ".as", ".fcstd")
 FORMATS = (".csv", *PROGRAMS)
+_TEXTS = {".mod": rapid_text, ".script": urscript_text, ".ls": ls_text, ".jbi": jbi_text, ".as": as_text}
 _KRL_NAME_LIMIT = 24
 
 
@@ -47,13 +51,13 @@ def _targets(path: Path) -> list[Path]:
     """The files that an output consists of: a KRL program comes with its points."""
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"The output {path} is of an unknown format: use .csv, .src (KUKA), .mod (ABB), .script "
-                         "(Universal Robots) or .FCStd.")
+                         "(Universal Robots), .ls (FANUC), .jbi (Yaskawa), .as (Kawasaki) or .FCStd.")
     return [path, path.with_suffix(".dat")] if path.suffix.lower() == ".src" else [path]
 
 
 def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings | None = None,
                 report_path: str | Path | None = None, picture: str | Path | None = None,
-                inputs: Sequence[str | Path] = ()) -> list[str]:
+                inputs: Sequence[str | Path] = (), planned: PlannedMoves | None = None) -> list[str]:
     """Write tables and programs, by their suffixes, and the report and its picture: all of them or none.
 
     Programs hold the seams within their limits, and the others where the robot's settings ask for them; tables, the
@@ -62,10 +66,11 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     Parameters
     ----------
     plan : the seams
-    outs : tables (.csv) and programs (.src, .mod, .script, .FCStd)
+    outs : tables (.csv) and programs (.src, .mod, .script, .ls, .jbi, .as, .FCStd)
     robot : its tool, base and motion; the defaults of `RobotSettings`
     report_path, picture : files: .json, and .png
     inputs : files that were read and must not be written over
+    planned : what a robot makes of the seams; its settings count then, and its seams
 
     Returns
     -------
@@ -80,23 +85,23 @@ def write_seams(plan: SeamPlan, outs: Sequence[str | Path], robot: RobotSettings
     report, drawing = (None if path is None else Path(path) for path in (report_path, picture))
     check_seam_outputs(files, (report, drawing), list(map(Path, inputs)))
     extra = [path for path in (report, drawing) if path is not None]
-    robot = robot or RobotSettings()
-    paths = [moves(seam, robot) for seam in programmed_seams(plan, robot)]
+    robot = planned.settings if planned else robot or RobotSettings()
+    paths = list(planned.seams) if planned else [moves(seam, robot) for seam in programmed_seams(plan, robot)]
     if not paths and any(out.suffix.lower() in PROGRAMS for out in files):
-        raise RefusedError("No seam is within its limits, so no program was written: look at the report, set other "
-                           "limits, or keep failing seams (--keep-failing).")
+        raise RefusedError(planned.refusal if planned else "No seam is within its limits, so no program was written: "
+                           "look at the report, set other limits, or keep failing seams (--keep-failing).")
     targets = [target for out in files for target in _targets(out)] + extra
     with replacing(*targets) as temporary:
         names = dict(zip(targets, temporary, strict=True))
         for out in files:
             _write_one(out, names, plan, paths, robot)
         if report is not None:
-            record.write(plan.record(), names[report])
+            record.write({**plan.record(), **({"robot": planned.record} if planned else {})}, names[report])
         if drawing is not None:
             draw(names[drawing], plan)
     renamed = [f"The controller calls the program {name}: name {out.name} and its .dat so." for out in files
                if out.suffix.lower() == ".src" and (name := program_name(out.stem, _KRL_NAME_LIMIT)) != out.stem]
-    return program_notes(plan, robot) + renamed
+    return program_notes(plan, robot, planned) + renamed
 
 
 def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]:
@@ -110,13 +115,14 @@ def programmed_seams(plan: SeamPlan, robot: RobotSettings) -> list[MeasuredSeam]
     return [seam for seam in plan.seams if robot.keep_failing or not seam.exceeded(plan.limits)]
 
 
-def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
+def program_notes(plan: SeamPlan, robot: RobotSettings, planned: PlannedMoves | None = None) -> list[str]:
     """What the user must know of the programs, as sentences; known before they are written.
 
     Parameters
     ----------
     plan : the seams
     robot : its tool, base and motion
+    planned : what a robot makes of the seams
     """
     failing = [f"{seam.name} ({', '.join(exceeded)})" for seam in plan.seams
                if (exceeded := seam.exceeded(plan.limits))]
@@ -125,6 +131,8 @@ def program_notes(plan: SeamPlan, robot: RobotSettings) -> list[str]:
         notes.append(f"Beyond their limits, but included in the programs: {', '.join(failing)}.")
     elif failing:
         notes.append(f"Beyond their limits, and therefore left out of the programs: {', '.join(failing)}.")
+    if planned is not None:
+        return [*notes, *planned.notes]
     return notes + blocked_ways(plan.shape, [moves(seam, robot) for seam in programmed_seams(plan, robot)])
 
 
@@ -141,6 +149,6 @@ def _write_one(out: Path, names: dict[Path, Path], plan: SeamPlan, paths: Sequen
     elif suffix == ".src":
         texts = krl_texts(out.stem, paths, robot)
     else:
-        texts = (rapid_text if suffix == ".mod" else urscript_text)(out.stem, paths, robot),
+        texts = (_TEXTS[suffix](out.stem, paths, robot),)
     for target, text in zip(_targets(out), texts, strict=True):
         names[target].write_text(text, "utf-8")

@@ -3,6 +3,8 @@
 
 * KUKA: A, B, C in degrees, R = Rz(A) · Ry(B) · Rx(C): turns about Z, then the new Y, then the new X.
 * ABB: a unit quaternion q1…q4 of which q1 is the scalar.
+* FANUC: W, P, R and Yaskawa: Rx, Ry, Rz are KUKA's C, B, A.
+* Kawasaki: O, A, T in degrees, R = Rz(O) · Ry(A) · Rz(T).
 * Universal Robots: a rotation vector in rad: the axis, as long as the angle.
 """
 from __future__ import annotations
@@ -25,6 +27,18 @@ def kuka_angles(rotations: Array) -> Array:
 def from_kuka_angles(angles: Array) -> Array:
     """Rotations (n, 3, 3) of A, B, C in degrees, (n, 3)."""
     return Rotation.from_euler("ZYX", angles, degrees=True).as_matrix()
+
+
+def kawasaki_angles(rotations: Array) -> Array:
+    """O, A, T in degrees, (n, 3), of rotations (n, 3, 3), A from 0 to 180°; T = 0 where A leaves O and T free."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Gimbal lock")
+        return Rotation.from_matrix(rotations).as_euler("ZYZ", degrees=True)
+
+
+def from_kawasaki_angles(angles: Array) -> Array:
+    """Rotations (n, 3, 3) of O, A, T in degrees, (n, 3)."""
+    return Rotation.from_euler("ZYZ", angles, degrees=True).as_matrix()
 
 
 def abb_quaternions(rotations: Array) -> Array:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import from_kuka_angles, kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24
 _KEYS = ("X", "Y", "Z", "A", "B", "C")
@@ -30,13 +30,26 @@ def krl_texts(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) ->
     data = ["&ACCESS RVP", f"DEFDAT {name}"]
     for number, seam in enumerate(seams, 1):
         points = [f"XS{number}P{i}" for i in range(1, len(seam.poses) + 1)]
-        source += [f"; {plain(seam.title)}", f"PTP XS{number}IN", f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}",
-                   f"LIN {points[0]}", f"; seam {number} starts", f"$VEL.CP={_metres_per_second(settings.velocity)}",
+        ways = [f"XS{number}W{i}" for i in range(1, len(seam.way) + 1)]
+        source += [f"; {plain(seam.title)}", *(f"PTP {way}" for way in ways), f"PTP XS{number}IN",
+                   *seam.lines_at(BEFORE, "kuka"),
+                   f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}", f"LIN {points[0]}",
+                   f"; seam {number} starts", f"$VEL.CP={_metres_per_second(settings.velocity)}",
                    f"$APO.CDIS={seam.blend:.3f}"]
-        source += [f"LIN {point} C_DIS" for point in points[1:-1]] + [f"LIN {points[-1]}"]
+        source += seam.lines_at(0, "kuka")
+        speed = settings.velocity
+        for to, by in seam.sections:
+            if speed != (speed := seam.velocity_to(to, settings)):
+                source.append(f"$VEL.CP={_metres_per_second(speed)}")
+            source.append((f"LIN {points[to]}" if by is None else f"CIRC {points[by]},{points[to]}")
+                          + (" C_DIS" if to < len(points) - 1 else ""))
+            source += seam.lines_at(to, "kuka")
         source += [f"; seam {number} ends", f"$VEL.CP={_metres_per_second(AIR_VELOCITY)}", f"LIN XS{number}OUT"]
-        names = [f"XS{number}IN", *points, f"XS{number}OUT"]
-        data += [f"DECL FRAME {point}={text}" for point, text in zip(names, pose_texts(seam.all_poses), strict=True)]
+        names = [*ways, f"XS{number}IN", *points, f"XS{number}OUT"]
+        texts = [f"DECL FRAME {point}={text}" for point, text in zip(names, pose_texts(seam.whole_way), strict=True)]
+        if (joints := seam.joints_for("kuka")) is not None:
+            texts[: len(joints)] = [f"DECL AXIS {name}={_axes(row)}" for name, row in zip(names, joints, strict=False)]
+        data += texts
     return "\n".join([*source, "END"]) + "\n", "\n".join([*data, "ENDDAT"]) + "\n"
 
 
@@ -53,6 +66,10 @@ def rotation(angles: Array) -> Array:
 
 def _aggregate(values: Sequence[str]) -> str:
     return "{" + ",".join(f"{key} {value}" for key, value in zip(_KEYS, values, strict=True)) + "}"
+
+
+def _axes(joints: Array) -> str:
+    return "{" + ",".join(f"A{i} {angle}" for i, angle in enumerate(numbers(joints, 5), 1)) + "}"
 
 
 def _metres_per_second(velocity: float) -> str:

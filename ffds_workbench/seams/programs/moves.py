@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The moves that weld a seam, in no dialect yet: down to it, along it, and away."""
+"""The moves that weld a seam, independent of any dialect: down to it, along it, and away."""
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,8 @@ FrameChoice = int | str | tuple[float, ...] | None
 
 AIR_VELOCITY = 100.0
 """Speed of approach and retract in mm/s."""
+BEFORE = -1
+"""The station of statements that come before the robot goes down to the seam."""
 _LARGEST_BLEND = 1.0
 
 
@@ -80,6 +83,12 @@ class SeamMoves:
     approach, retract : (4, 4) poses before the first and after the last station
     poses : (n, 4, 4) torch frames at the stations
     blend : radius in mm within which the robot may round the stations between the first and the last
+    way : (k, 4, 4) poses through the air to the approach
+    joints : (k + 1, 6) in degrees, as ``maker``'s controller counts them: of the way and the approach; None: unknown
+    arcs : stations (start, middle, end) between which the poses lie on a circle
+    configurations : (k + n + 2,) of the arm, as ``maker``'s controller writes them; empty where it writes none
+    velocities : (n − 1,) in mm/s, to each station from the one before; None: the settings' throughout
+    statements : of the process, by dialect and station: what is written when that station is reached
     """
 
     name: str
@@ -88,11 +97,64 @@ class SeamMoves:
     poses: Array
     retract: Array
     blend: float
+    way: Array = field(default_factory=lambda: np.empty((0, 4, 4)))
+    joints: Array | None = None
+    maker: str = ""
+    arcs: tuple[tuple[int, int, int], ...] = ()
+    configurations: tuple[str, ...] = ()
+    velocities: Array | None = None
+    statements: Mapping[str, Mapping[int, Sequence[str]]] = field(default_factory=dict)
+
+    @property
+    def whole_way(self) -> Array:
+        """(k + n + 2, 4, 4), with the way through the air."""
+        return np.concatenate([self.way, self.all_poses])
+
+    def joints_for(self, maker: str) -> Array | None:
+        """The joints for a maker's controller; None where they are another's or unknown."""
+        return self.joints if maker == self.maker else None
+
+    def lines_at(self, station: int, dialect: str, form: str = "{}") -> list[str]:
+        """The process's statements at a station, each put into ``form``."""
+        return [form.format(line) for line in self.statements.get(dialect, {}).get(station, ())]
+
+    def velocity_to(self, station: int, settings: RobotSettings) -> float:
+        """In mm/s."""
+        return settings.velocity if self.velocities is None else float(self.velocities[station - 1])
+
+    @property
+    def sections(self) -> Iterator[tuple[int, int | None]]:
+        """How the first to the last station are passed: to which one, and by which on a circle (None: straight)."""
+        arcs = {start: (middle, end) for start, middle, end in self.arcs}
+        station = 0
+        while station < len(self.poses) - 1:
+            middle, station = arcs.get(station, (None, station + 1))
+            yield station, middle
 
     @property
     def all_poses(self) -> Array:
         """(n + 2, 4, 4), in the order in which the robot passes them."""
         return np.concatenate([self.approach[None], self.poses, self.retract[None]])
+
+
+@dataclass(frozen=True)
+class PlannedMoves:
+    """What a robot makes of seams.
+
+    Attributes
+    ----------
+    seams : those that are in the programs, in the order in which they are welded
+    settings : with its tool and base
+    record : the report's ``robot``
+    notes : what the user must know of the programs
+    refusal : why there is no program, where there is none
+    """
+
+    seams: tuple[SeamMoves, ...]
+    settings: RobotSettings
+    record: Mapping[str, Any]
+    notes: tuple[str, ...]
+    refusal: str
 
 
 def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
@@ -111,6 +173,19 @@ def _above(pose: Array, distance: float) -> Array:
     moved = pose.copy()
     moved[:3, 3] -= distance * pose[:3, 2]
     return moved
+
+
+def table_number(maker: str, what: str, choice: FrameChoice) -> int:
+    """The number of a tool or base in a controller's table: the given one, or 1 where a pose must be put there.
+
+    Raises
+    ------
+    InputError : it is a name
+    """
+    if isinstance(choice, str):
+        raise InputError(f"{maker} controllers number their {what}s: give a number or X,Y,Z,A,B,C instead of "
+                         f"'{choice}'.")
+    return choice if isinstance(choice, int) else 1
 
 
 def program_name(stem: str, limit: int) -> str:

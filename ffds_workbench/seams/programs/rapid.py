@@ -9,10 +9,11 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import abb_quaternions, from_kuka_angles
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 24
-_NO_AXES = "[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]"
+_NO_EXTERNAL = "[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]"
+_NO_AXES = f"[0,0,0,0],{_NO_EXTERNAL}"
 
 
 def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> str:
@@ -39,16 +40,30 @@ def rapid_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -
     for number, seam in enumerate(seams, 1):
         zone = f"zFfds{number}"
         points = [f"pS{number}_{i}" for i in range(1, len(seam.poses) + 1)]
-        names = [f"pS{number}_in", *points, f"pS{number}_out"]
-        lines += [f"  CONST robtarget {point}:=[{pose[1:-1]},{_NO_AXES}];"
-                  for point, pose in zip(names, pose_texts(seam.all_poses), strict=True)]
+        ways = [f"pS{number}_w{i}" for i in range(1, len(seam.way) + 1)]
+        names = [*ways, f"pS{number}_in", *points, f"pS{number}_out"]
+        joints = seam.joints_for("abb")
+        targets = [] if joints is None else [",".join(numbers(row, 5)) for row in joints]
+        lines += [f"  CONST jointtarget {point}:=[[{target}],{_NO_EXTERNAL}];"
+                  for point, target in zip(names, targets, strict=False)]
+        lines += [f"  CONST robtarget {point}:=[{pose[1:-1]},{_NO_AXES}];" for point, pose in zip(
+            names[len(targets) :], pose_texts(seam.whole_way[len(targets) :]), strict=True)]
         blend = f"{seam.blend:.3f}"
         lines.append(f"  CONST zonedata {zone}:=[FALSE,{blend},{blend},{blend},0.5,{blend},0.5];")
         at = f"{tool}\\WObj:={base};"
-        body += [f"    ! {plain(seam.title)}", f"    MoveJ pS{number}_in,vFfdsAir,fine,{at}",
-                 f"    MoveL {points[0]},vFfdsAir,fine,{at}", f"    ! seam {number} starts"]
-        body += [f"    MoveL {point},vFfdsWeld,{zone},{at}" for point in points[1:-1]]
-        body += [f"    MoveL {points[-1]},vFfdsWeld,fine,{at}", f"    ! seam {number} ends",
+        move = "MoveAbsJ" if targets else "MoveJ"
+        body += [f"    ! {plain(seam.title)}", *(f"    {move} {way},vFfdsAir,fine,{at}" for way in ways),
+                 f"    {move} pS{number}_in,vFfdsAir,fine,{at}", *seam.lines_at(BEFORE, "abb", "    {}"),
+                 f"    MoveL {points[0]},vFfdsAir,fine,{at}",
+                 f"    ! seam {number} starts"]
+        body += seam.lines_at(0, "abb", "    {}")
+        for to, by in seam.sections:
+            speed = seam.velocity_to(to, settings)
+            data = "vFfdsWeld" if speed == settings.velocity else f"[{speed:g},100,1000,1000]"
+            body += [("    MoveL " if by is None else f"    MoveC {points[by]},")
+                     + f"{points[to]},{data},{zone if to < len(points) - 1 else 'fine'},{at}",
+                     *seam.lines_at(to, "abb", "    {}")]
+        body += [f"    ! seam {number} ends",
                  f"    MoveL pS{number}_out,vFfdsAir,fine,{at}"]
     lines += [f"  PROC {name}()", "    ConfJ\\Off;", "    ConfL\\Off;", *body, "  ENDPROC", "ENDMODULE"]
     return "\n".join(lines) + "\n"

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...registration.arrays import Array
 from .angles import from_kuka_angles, ur_rotation_vectors
-from .moves import AIR_VELOCITY, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
+from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
 NAME_LIMIT = 32
 _ACCELERATION = 0.5
@@ -30,14 +30,22 @@ def urscript_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings
              "  # Torch frame: z out of the nozzle into the joint, x along the travel.",
              "  # Poses are in the frame of the model."]
     lines += [f"  set_tcp({tool})"] * (tool is not None) + [f"  model_frame = {base}"] * (base is not None)
-    air, weld = (f"a={_ACCELERATION:g}, v={velocity / 1000.0:.6g}" for velocity in (AIR_VELOCITY, settings.velocity))
+    air = _speed(AIR_VELOCITY)
     for number, seam in enumerate(seams, 1):
-        approach, *poses, retract = (f"pose_trans(model_frame, {pose})" if base else pose
-                                     for pose in pose_texts(seam.all_poses))
-        lines += [f"  # {plain(seam.title)}", f"  movej({approach}, a={_ACCELERATION:g}, v=0.3)",
+        texts = [_in_model(pose, base) for pose in pose_texts(seam.whole_way)]
+        places, (*poses, retract) = texts[: len(seam.way) + 1], texts[len(seam.way) + 1 :]
+        if (joints := seam.joints_for("ur")) is not None:
+            places = [f"[{','.join(numbers(np.radians(row), 8))}]" for row in joints]
+        lines += [f"  # {plain(seam.title)}", *(f"  movej({place}, a={_ACCELERATION:g}, v=0.3)" for place in places),
+                  *seam.lines_at(BEFORE, "ur", "  {}"),
                   f"  movel({poses[0]}, {air})", f"  # seam {number} starts"]
-        lines += [f"  movel({pose}, {weld}, r={seam.blend / 1000.0:.6f})" for pose in poses[1:-1]]
-        lines += [f"  movel({poses[-1]}, {weld})", f"  # seam {number} ends", f"  movel({retract}, {air})"]
+        lines += seam.lines_at(0, "ur", "  {}")
+        for to, by in seam.sections:
+            at = _speed(seam.velocity_to(to, settings))
+            lines += [(f"  movel({poses[to]}, {at}" if by is None else f"  movec({poses[by]}, {poses[to]}, {at}")
+                      + (f", r={seam.blend / 1000.0:.6f})" if to < len(poses) - 1 else ")"),
+                      *seam.lines_at(to, "ur", "  {}")]
+        lines += [f"  # seam {number} ends", f"  movel({retract}, {air})"]
     return "\n".join([*lines, "end", f"{name}()"]) + "\n"
 
 
@@ -46,6 +54,14 @@ def pose_texts(poses: Array) -> list[str]:
     vectors = ur_rotation_vectors(poses[:, :3, :3])
     return [f"p[{','.join([*numbers(pose[:3, 3] / 1000.0, 8), *numbers(turn, 8)])}]"
             for pose, turn in zip(poses, vectors, strict=True)]
+
+
+def _speed(velocity: float) -> str:
+    return f"a={_ACCELERATION:g}, v={velocity / 1000.0:.6g}"
+
+
+def _in_model(pose: str, base: str | None) -> str:
+    return f"pose_trans(model_frame, {pose})" if base else pose
 
 
 def _pose(what: str, choice: FrameChoice) -> str | None:

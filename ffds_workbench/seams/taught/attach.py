@@ -2,7 +2,7 @@
 """Poses held by the model: each by the nearest edge or face, so that it moves and turns with what is there.
 
 A pose near an edge is held by (edge, fraction) and turns with the edge's torch frame; any other by (face, u, v) and
-turns with the face's tangent plane. What it stood off the model is carried along, turned.
+turns with the face's tangent plane. Its offset from the model is kept, rotated.
 """
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def motion(nominal: Weldment, as_built: Weldment, points: Array) -> Motion:
     finder = _Finder(nominal)
     candidates = [finder(point) for point in points]
     held_by = Counter(anchor.edge for several in candidates for anchor in several)
-    # Where edges meet, the path goes on along the one that it follows elsewhere.
+    # Where edges meet, the path stays with the one that it follows elsewhere.
     anchors = [max(several, key=lambda anchor: held_by[anchor.edge]) if several else None for several in candidates]
     held = np.array([anchor is not None for anchor in anchors])
     if not held.any():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A taught path as a CSV file: read, moved, and written with all its other columns as they were.
 
-Columns are told by their names: x, y, z in mm, and for the orientation qx, qy, qz, qw or a, b, c (KUKA's angles, in
-degrees). Without a header there are 3 (x, y, z), 6 (and a, b, c) or 7 columns (and qx, qy, qz, qw).
+Columns are recognised by their names: x, y, z in mm, and for the orientation qx, qy, qz, qw or a, b, c (KUKA's angles,
+in degrees). Without a header there are 3 (x, y, z), 6 (and a, b, c) or 7 columns (and qx, qy, qz, qw).
 """
 from __future__ import annotations
 

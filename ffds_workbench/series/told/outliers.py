@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from ...registration.arrays import Array
+from ...registration.robust_weights import MAD_TO_SIGMA
 
 _ERROR = 0.01
 """Share of sound series in which a part is named."""
@@ -18,8 +19,6 @@ _STEPS = 20
 _DRAWS, _MOST_DRAWN = 400, 200
 """Series that are drawn for the limit, and parts of the longest: of more parts, chi square is near enough."""
 _CORE = 0.975
-_TO_SIGMA = 1.4826
-"""Standard deviations of a normal distribution in its median absolute deviation."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,7 @@ def find_outliers(scores: Array, means: Array, names: NDArray[np.str_]) -> list[
     squared = _robust_distances(scores)
     limit = float(chi2.ppf(1.0 - _ERROR / parts, count)) * _widening(min(parts, _MOST_DRAWN), count)
     middle = np.median(means, axis=0)
-    spread = _TO_SIGMA * np.median(np.abs(means - middle), axis=0)
+    spread = MAD_TO_SIGMA * np.median(np.abs(means - middle), axis=0)
     spread = np.maximum(spread, 1e-3 * np.abs(means - middle).max(initial=1e-12))
     found = []
     for part in np.flatnonzero(squared > limit):
@@ -86,7 +85,7 @@ def _robust_distances(scores: Array) -> Array:
     """Squared Mahalanobis distances (parts,) from the bulk of the parts."""
     parts, count = scores.shape
     middle = np.median(scores, axis=0)
-    spread = _TO_SIGMA * np.median(np.abs(scores - middle), axis=0)
+    spread = MAD_TO_SIGMA * np.median(np.abs(scores - middle), axis=0)
     scaled = (scores - middle) / np.where(spread > 0, spread, 1.0)
     half = (parts + count + 1) // 2
     squared, inner = (scaled**2).sum(axis=1), np.zeros(0, dtype=int)

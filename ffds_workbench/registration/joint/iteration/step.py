@@ -38,14 +38,14 @@ def gauss_newton_step(problem: Problem, stage: Stage, state: State) -> State:
     RefusedError
         no scan point lies near the part
     """
-    jet = problem.cells.displaced(problem.lattices, state.control_points)
-    found = _match_scan(problem, stage, state, jet)
-    state = replace(state, values=_weigh(problem, stage, found, state.values.scatter))
-    state = replace(state, cache=_renewed_cache(problem, stage, state, jet))
-    equations = prior_equations(problem, state, stage.bending)
-    add_observations(equations, problem, state, jet)
+    jet = problem.cells.displaced(problem.lattices, state.control_points)                 # S₀ + B ΔP̃ (Eq. 2)
+    found = _match_scan(problem, stage, state, jet)                                       # step 3: cells, heights h
+    state = replace(state, values=_weigh(problem, stage, found, state.values.scatter))    # W/(σ² + N τ²) of each cell
+    state = replace(state, cache=_renewed_cache(problem, stage, state, jet))              # borders, body, strain
+    equations = prior_equations(problem, state, stage.bending)                            # the table of `assembly`
+    add_observations(equations, problem, state, jet)                                      # n·(B δ) = h (Eq. 3)
     del jet  # a factor needs the memory
-    step, factor = _solve(problem, stage, state, equations)
+    step, factor = _solve(problem, stage, state, equations)                               # step 4: δ = A⁻¹ r (Eq. 4)
     face_steps = _face_steps(problem, step)
     last_step = float(face_steps.max())
     cache = state.cache

@@ -28,7 +28,7 @@ def needed(control_points: int, cells: int, points: int) -> float:
 
 def available() -> float:
     """Bytes that this process may still take: what Linux says, no more than its container has left; elsewhere all the
-    memory of the machine, or no bound where that is not told."""
+    memory of the machine, or no bound where that is unknown."""
     found = [math.inf]
     try:
         lines = dict(line.split(":", 1) for line in _MEMORY.read_text().splitlines())

@@ -162,7 +162,7 @@ def make_couplings(part: JointPart, lattices: Lattices, pairs: SheetPairs, conta
     hinges = edges.take(edges.angled)
     dihedral_rows = _dihedral_rows(hinges, lattices)
     dihedral_weight = hinges.length / max(edges.length.sum(), 1e-12) * len(edges.edge) / settings.dihedral_sigma**2
-    scalar = (lengths.together**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
+    scalar = (lengths.edge_agreement**-2 * (rows.T @ rows) + _CONTACT_SHARE * information * (contacts.T @ contacts)
               + diags(_anchor(part, lattices, lengths, information)))
     still = np.zeros((count, 3))
     normal = _sheet_normals(pairs, still)
@@ -193,7 +193,7 @@ def _anchor(part: JointPart, lattices: Lattices, lengths: Lengths, information: 
     for solid in part.solids:
         own = np.isin(lattices.face_of_control, solid)
         weight[own] = prior / max(own.sum(), 1)
-    weight[np.isin(lattices.face_of_control, list(part.frozen))] = (_FROZEN * lengths.together) ** -2
+    weight[np.isin(lattices.face_of_control, list(part.frozen))] = (_FROZEN * lengths.edge_agreement) ** -2
     return weight
 
 

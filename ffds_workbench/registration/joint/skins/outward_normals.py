@@ -29,8 +29,8 @@ _LOST_RATIO, _LOST_FLOOR = 0.5, 0.004
 second number times the size of the piece (calibrated: by hand, on the sheets of
 tests/registration/test_joint_skins.py)."""
 _LEAST_NEAR_POINTS, _LEAST_PIECE_POINTS = 100, 30
-"""Points near the part without which nothing is told, and points of a piece whose mean is trusted (theory: a share of
-30 is known to a tenth)."""
+"""Points near the part without which nothing is decided, and points of a piece whose mean is trusted (theory: a share
+of 30 is known to a tenth)."""
 _DOUBTFUL_RATIO, _LARGE_PIECE_SHARE = 0.75, 0.2
 """Both signs are tried where the distances differ by less than the first factor and the piece holds more than the
 second share of the points (calibrated: by hand, on the sheets of tests/registration/test_joint_skins.py)."""
@@ -48,7 +48,7 @@ _NORMAL_REACH_IN_SPACINGS = 3.0
 
 
 def candidate_outward_normals(problem: Problem) -> tuple[list[Array | None], bool]:
-    """Outward unit normals at the points of the problem's sample, zero where they cannot be told: (n, 3).
+    """Outward unit normals at the points of the problem's sample, zero where they are unknown: (n, 3).
 
     Two of them where a large piece is in doubt, the nearer side first, or, if the scan's normals tell the side, theirs;
     None where no sheet is so thin that its sides could be mixed up, or the noise hides them. The second result is
@@ -70,26 +70,26 @@ def candidate_outward_normals(problem: Problem) -> tuple[list[Array | None], boo
     pieces = smooth_pieces(sketch.points, sketch.normals)
     signs, sure = _signs(place, normal, sketch, 2 * reach)
     sides = [_one_sign_each(pieces, item[sketch.piece]) for item in signs]
-    told = np.zeros(len(sketch.points))
+    by_scan = np.zeros(len(sketch.points))
     if problem.sample_normals is not None:
         cosines = _cosines(sketch, nearest, known * problem.sample_normals)
-        told = _signs_of_scan_normals(pieces, cosines, sure[sketch.piece])
-    if told.any():
-        theirs = np.where(told == 0, sides[0], told)
+        by_scan = _signs_of_scan_normals(pieces, cosines, sure[sketch.piece])
+    if by_scan.any():
+        theirs = np.where(by_scan == 0, sides[0], by_scan)
         sides = [theirs, *(side for side in sides if (side * theirs < 0).mean() > _CONTRADICTION_SHARE)][:2]
     return [np.where(known, (side[:, None] * sketch.normals)[nearest], 0.0) for side in sides
-            if side is sides[0] or (side != sides[0]).any()], bool(told.any())
+            if side is sides[0] or (side != sides[0]).any()], bool(by_scan.any())
 
 
 def outward_normals_of_all(problem: Problem, outward: Array | None) -> Array | None:
-    """Outward unit normals at all scan points, zero where they cannot be told, from those of the sample (m, 3): (n, 3).
+    """Outward unit normals at all scan points, zero where they are unknown, from those of the sample (m, 3): (n, 3).
 
     None where noise carries no point over the middle of a sheet.
 
     Parameters
     ----------
     problem : what stays the same while the solve runs
-    outward : (m, 3) at the points of the sample, zero where they cannot be told
+    outward : (m, 3) at the points of the sample, zero where they are unknown
     """
     if outward is None or NOISE_ENDS_SIGMAS * problem.statistics.noise < 0.5 * _thinnest(problem):
         return None
@@ -105,9 +105,9 @@ def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tupl
     """Sign of every piece of the sketch, from what it finds on the nominal part: +1, −1, or 0 where it is undecided:
     (pieces,).
 
-    With the wrong sign a wall finds nothing within ``most`` mm that faces as it does, and a skin finds the far one.
-    Where a large piece is in doubt, its other sign comes second, with those of all others that are in doubt. What is
-    clear even against normals comes apart from these.
+    With the wrong sign a wall finds nothing with its normal within ``most`` mm, and a skin finds the far one. Where a
+    large piece is in doubt, its other sign comes second, with those of all other doubtful pieces. The signs that are
+    clear even against the scan's normals are returned separately.
     """
     tree = cKDTree(np.hstack([place, most * normal]), balanced_tree=False, compact_nodes=False)
     both = [tree.query(np.hstack([sketch.points, sign * most * sketch.normals]), distance_upper_bound=most,
@@ -115,12 +115,12 @@ def _signs(place: Array, normal: Array, sketch: SkinPoints, most: float) -> tupl
     lost = [np.bincount(sketch.piece, weights=np.isinf(found).astype(float)) for found in both]
     distance = [np.bincount(sketch.piece, weights=np.minimum(found, most)) for found in both]
     size = np.bincount(sketch.piece).astype(float)
-    told = _clearly_less(lost[0] + _LOST_FLOOR * size, lost[1] + _LOST_FLOOR * size, _LOST_RATIO)
-    near = np.where(told == 0, _clearly_less(distance[0], distance[1], _CLOSER), told)
-    doubtful = (told == 0) & (_clearly_less(distance[0], distance[1], _DOUBTFUL_RATIO) == 0)
+    by_loss = _clearly_less(lost[0] + _LOST_FLOOR * size, lost[1] + _LOST_FLOOR * size, _LOST_RATIO)
+    near = np.where(by_loss == 0, _clearly_less(distance[0], distance[1], _CLOSER), by_loss)
+    doubtful = (by_loss == 0) & (_clearly_less(distance[0], distance[1], _DOUBTFUL_RATIO) == 0)
     main = doubtful & (size > _LARGE_PIECE_SHARE * size.sum())
     first = np.where(main & (near == 0), np.where(distance[0] <= distance[1], 1.0, -1.0), near)
-    clear = np.where(told == 0, _clearly_less(distance[0], distance[1], _MUCH_CLOSER), told)
+    clear = np.where(by_loss == 0, _clearly_less(distance[0], distance[1], _MUCH_CLOSER), by_loss)
     return [first, np.where(doubtful, -first, first)] if main.any() else [near], clear
 
 

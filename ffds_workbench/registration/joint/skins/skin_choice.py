@@ -28,10 +28,10 @@ is a guess, with bands as wide as the sheet is thick. A fit that the scan's norm
 moved less by the first factor, with such wide bands if it moved less by the second (calibrated: as above)."""
 
 
-def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
+def choose_skin(problem: Problem, states: list[State], by_normals: bool) -> State:
     """Choose the right one of two fits of a sheet, one to each of its skins; a single fit is returned as it is.
 
-    If neither costs nor walls decide, the first is right if the scan's normals ``told`` it and it did not move far
+    If neither costs nor walls decide, the first is right if the scan's normals say so and it did not move far
     more. Without normals the one that moved less is a guess, with bands as wide as the sheet is thick, unless it moved
     far less.
 
@@ -39,7 +39,7 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
     ----------
     problem : what stays the same while the solve runs
     states : the fits, one or two
-    told : whether the scan's normals tell the side of the first
+    by_normals : whether the scan's normals decide that the first is right
     """
     if len(states) == 1:
         return states[0]
@@ -53,7 +53,7 @@ def choose_skin(problem: Problem, states: list[State], told: bool) -> State:
         if walls[own] > _WALL_RATIO * walls[other] + _WALL_POINTS:
             return states[own]
     thickness = max(problem.couplings.pairs.solid_thickness)
-    if told:
+    if by_normals:
         chosen = states[int(moved[1] < _MOVED_CLEARLY_LESS * moved[0])]
         return replace(chosen, unsure=thickness) if moved[1] < _MOVED_ALIKE * moved[0] else chosen
     chosen = states[int(np.argmin(moved))]

@@ -212,10 +212,10 @@ def fit_displacement(start: DisplacementField, heights: DisplacementObservations
         share = cost**2 * number / places
         matrix += share * (rows @ rows.T)
         right += share * (rows @ (coefficients @ rows - strain))
-    for pulls in (heights, ends) if ends is not None else (heights,):
-        root = np.sqrt(pulls.robust())
-        directions = (root * pulls.directions.T).astype(np.float32)
-        rows = (space.values(pulls.places, count)[:, None] * directions).reshape(3 * count, -1)
+    for observed in (heights, ends) if ends is not None else (heights,):
+        root = np.sqrt(observed.robust())
+        directions = (root * observed.directions.T).astype(np.float32)
+        rows = (space.values(observed.places, count)[:, None] * directions).reshape(3 * count, -1)
         matrix += rows @ rows.T
-        right += rows @ (root * pulls.displacement).astype(np.float32)
+        right += rows @ (root * observed.displacement).astype(np.float32)
     return replace(start, coefficients=np.linalg.solve(matrix, right).reshape(-1, 3))

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import Array
-from ..evidence import LooseScan
+from ..evidence import UnalignedScan
 from ..model import nearest_field
 from ..search_settings import SearchStage
 from .candidates import Candidates, Probe, distinct, improve, scores
 
 
-def propose(scan: LooseScan, starts: Array, stages: Sequence[SearchStage],
+def propose(scan: UnalignedScan, starts: Array, stages: Sequence[SearchStage],
             generator: np.random.Generator) -> Candidates:
     """The most promising poses, best first.
 

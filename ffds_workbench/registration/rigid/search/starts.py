@@ -9,12 +9,12 @@ from scipy.spatial.transform import Rotation
 
 from ...arrays import Array
 from ...motions import apply, even_rotations, motion
-from ..evidence import LooseScan
+from ..evidence import UnalignedScan
 from ..model import Target
 from ..search_settings import SearchSettings
 
 
-def starts_of(scan: LooseScan, kind: str, pose: Array | None = None) -> Array:
+def starts_of(scan: UnalignedScan, kind: str, pose: Array | None = None) -> Array:
     """Poses to start from, (k, 4, 4).
 
     Parameters

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The triangles of a shape, solid by solid, each with the number of its face in the whole shape."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import FreeCAD
+import numpy as np
+import Part
+
+from ...brep.model_files import model_file
+from ...registration.arrays import Array
+from .triangles import Facets, joined, triangles
+
+_DEVIATION = 0.05
+"""How far in mm the triangles may be off the faces."""
+
+
+def triangles_of(shape: Part.Shape) -> Facets:
+    """The triangles of all solids of a shape; faces that belong to none are taken by themselves."""
+    shape.tessellate(_DEVIATION)
+    faces = {face.hashCode(): number for number, face in enumerate(shape.Faces)}
+    solids = [solid.Faces for solid in shape.Solids]
+    owned = {face.hashCode() for members in solids for face in members}
+    loose = [face for face in shape.Faces if face.hashCode() not in owned]
+    groups = [*solids, *([loose] if loose else [])]
+    return joined([_of_faces([(faces.get(face.hashCode(), 0), face) for face in members]) for members in groups])
+
+
+def _of_faces(members: list[tuple[int, Part.Face]]) -> Facets:
+    points, indices, owners, count = [], [], [], 0
+    for number, face in members:
+        corners, facets = face.tessellate(_DEVIATION)
+        if not facets:
+            continue
+        points.append(np.array([tuple(corner) for corner in corners]))
+        indices.append(np.array(facets) + count)
+        owners.append(np.full(len(facets), number))
+        count += len(corners)
+    return triangles(np.concatenate(points), np.concatenate(indices), np.concatenate(owners))
+
+
+def triangles_of_file(path: Path, pose: Array) -> Facets:
+    """The triangles of a model file, moved by a pose (4, 4); they all count as one face.
+
+    Raises
+    ------
+    InputError : the file cannot be read
+    """
+    shape = model_file.read(path).shape.copy()
+    shape.transformShape(FreeCAD.Matrix(*pose.ravel().tolist()))
+    found = triangles_of(shape)
+    return Facets(found.corners, np.zeros_like(found.faces), found.normals)
