@@ -51,6 +51,7 @@ _HOMES = {
     ".inputs": ("as_request", "read_model", "read_scan"),
     ".methods": ("OtherSideError",),
     ".outputs": ("write", "write_deviation"),
+    ".pages": ("write_pages",),
     ".preparing": ("prepare", "write_prepared"),
     ".registering": ("Result", "register", "run"),
     ".robots": ("plan_robot", "read_cell"),

@@ -2,7 +2,7 @@
 """FFDS_AlignByPoints: brings the selected scan onto the selected part from three picked pairs of points."""
 from __future__ import annotations
 
-from .command import Command, part_and_scan
+from ..command import Command, part_and_scan
 
 
 class AlignByPoints(Command):
@@ -14,6 +14,7 @@ class AlignByPoints(Command):
     HELP = ("Where a scan is not aligned by itself: pick three points on the scan and the same three, in the same "
             "order, on the part.")
     KEYS = "F, 3"
+    NEEDS = "Select one part and one scan first."
 
     def active(self) -> bool:
         """With one part, and one scan selected or known."""
@@ -21,6 +22,6 @@ class AlignByPoints(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from ..panels.point_pairs_panel import open_panel
+        from ...panels.point_pairs_panel import open_panel
 
         open_panel(*part_and_scan())

@@ -2,7 +2,7 @@
 """FFDS_ShowDeviation: the deviation map of the selected part and its scan."""
 from __future__ import annotations
 
-from .command import Command, part_and_scan
+from ..command import Command, part_and_scan
 
 
 class ShowDeviation(Command):
@@ -14,6 +14,7 @@ class ShowDeviation(Command):
     HELP = ("Colours the scan or the part by the distance between them, nominal and as built. The panel has the "
             "range, the tolerance, the histogram and the value under the cursor.")
     KEYS = "F, V"
+    NEEDS = "Select one part first, and the scan where the document holds several."
 
     def active(self) -> bool:
         """With one part, and one scan selected or known."""
@@ -21,6 +22,6 @@ class ShowDeviation(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from ..panels.deviation_panel import open_panel
+        from ...panels.deviation_panel import open_panel
 
         open_panel(*part_and_scan())

@@ -5,8 +5,8 @@ from __future__ import annotations
 import FreeCAD
 import FreeCADGui as Gui
 
-from ..running import call
-from .command import Command
+from ...running import call
+from ..command import Command
 
 
 class LoadExample(Command):

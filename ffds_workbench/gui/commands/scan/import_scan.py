@@ -8,11 +8,11 @@ import FreeCAD
 import FreeCADGui as Gui
 import numpy as np
 
-from ..qt import QtWidgets, execute
-from ..running import Cancelled, call, in_background, name_of
-from ..selection import chosen
-from ..translating import tr
-from .command import Command
+from ...qt import QtWidgets, execute
+from ...running import Cancelled, call, in_background, name_of
+from ...selection import chosen
+from ...translating import tr
+from ..command import Command
 
 _PLAUSIBLE = (0.05, 20.0)
 """Sizes of a scan as multiples of the part's that need no question."""
@@ -37,7 +37,7 @@ class ImportScan(Command):
 
     def run(self) -> None:
         """Ask for files, for their unit where it looks wrong, and whether a selected scan is to be replaced."""
-        from ...scan.files import FORMATS, read
+        from ....scan.files import FORMATS, read
 
         patterns = " ".join(f"*{suffix} *{suffix.upper()}" for suffix in FORMATS)
         paths, _ = QtWidgets.QFileDialog.getOpenFileNames(
@@ -60,7 +60,7 @@ class ImportScan(Command):
 
     def _unit(self, size: float) -> str | None:
         """The unit of files whose points span ``size``, None if the user wants none."""
-        from ...scan.units import MILLIMETRES, NAMES
+        from ....scan.units import MILLIMETRES, NAMES
 
         part = _part_size()
         if part is not None and _PLAUSIBLE[0] < size / part < _PLAUSIBLE[1] or part is None and size > _SMALLEST:
@@ -96,10 +96,10 @@ def _ask_whether_to_replace(scan: Any) -> Any:
 
 def _replace(scan: Any, paths: list[str], unit: str) -> None:
     """Compute what depends on the scan in the background, then replace it in one undo step."""
-    from ...api import read_scan
-    from ...objects.as_built import is_as_built, request_of
-    from ...objects.jobs.registration_job import job_on
-    from ...objects.scans import as_stored
+    from ....api import read_scan
+    from ....objects.as_built import is_as_built, request_of
+    from ....objects.jobs.registration_job import job_on
+    from ....objects.scans import as_stored
 
     cloud = as_stored(scan, read_scan(paths, unit))
     for item in scan.InList:

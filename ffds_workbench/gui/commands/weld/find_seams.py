@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import FreeCADGui as Gui
 
-from ..qt import QtWidgets
-from ..running import call, in_background, name_of, tell
-from ..selection import chosen
-from ..translating import said, tr
-from .command import Command, one_part
+from ...qt import QtWidgets
+from ...running import call, in_background, name_of, tell
+from ...selection import chosen
+from ...translating import said, tr
+from ..command import Command, one_part
 
 _TOLERANCE = 0.5
 
@@ -22,6 +22,7 @@ class FindSeams(Command):
     HELP = ("Follows the selected edges, or finds the joints between the parts of the selected object. The seams "
             "follow the part; limits, torch angles, tool and base are in their properties.")
     KEYS = "F, M"
+    NEEDS = "Select one part, or edges of one, first."
 
     def active(self) -> bool:
         """With one part selected, or edges of one."""
@@ -30,8 +31,8 @@ class FindSeams(Command):
 
     def run(self) -> None:
         """Ask for the tolerance where no edge is selected; measure in the background, then add the object."""
-        from ...objects.jobs.seam_job import SeamWishes
-        from ...objects.seams import prepare
+        from ....objects.jobs.seam_job import SeamWishes
+        from ....objects.seams import prepare
 
         part, edges, tolerance = one_part(chosen()), selected_edges(), None
         if not edges:

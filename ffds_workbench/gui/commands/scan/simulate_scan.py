@@ -6,12 +6,12 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from ..qt import QtWidgets, execute
-from ..running import call, name_of
-from ..selection import chosen
-from ..translating import tr
-from ..widgets import choice, length, named, spin
-from .command import Command, one_part
+from ...qt import QtWidgets, execute
+from ...running import call, name_of
+from ...selection import chosen
+from ...translating import tr
+from ...widgets import choice, length, named, spin
+from ..command import Command, one_part
 
 
 class SimulateScan(Command):
@@ -23,6 +23,7 @@ class SimulateScan(Command):
     HELP = ("Scans the selected part with a virtual sensor: points with noise of the side that is seen now, or of "
             "all sides.")
     KEYS = "F, S"
+    NEEDS = "Select one part first."
 
     def active(self) -> bool:
         """With one part selected."""

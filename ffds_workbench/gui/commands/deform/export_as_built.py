@@ -6,11 +6,11 @@ from pathlib import Path
 
 import FreeCADGui as Gui
 
-from ..qt import QtWidgets
-from ..running import name_of, record
-from ..selection import chosen
-from ..translating import tr
-from .command import Command, one_part
+from ...qt import QtWidgets
+from ...running import name_of, record
+from ...selection import chosen
+from ...translating import tr
+from ..command import Command, one_part
 
 _FORMATS = "STEP (*.step *.stp);;BREP (*.brep);;FCStd (*.FCStd)"
 
@@ -24,6 +24,7 @@ class ExportAsBuilt(Command):
     HELP = ("Writes the selected part with its name and its face colours. The file is written whole or not at "
             "all.")
     KEYS = "F, E"
+    NEEDS = "Select one part first."
 
     def active(self) -> bool:
         """With one part selected."""

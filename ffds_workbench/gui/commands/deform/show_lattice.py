@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import FreeCADGui as Gui
 
-from ..running import name_of
-from ..selection import chosen
-from .command import Command, one_part
+from ...running import name_of
+from ...selection import chosen
+from ..command import Command, one_part
 
 
 class ShowLattice(Command):
@@ -18,6 +18,7 @@ class ShowLattice(Command):
     HELP = ("Draws the control lattice of every deformed face of the selected as-built part, before (grey) and "
             "after (orange).")
     KEYS = "F, L"
+    NEEDS = "Select one as-built part first."
 
     def active(self) -> bool:
         """With one as-built part selected."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import FreeCAD
 
-from ..selection import chosen
-from .command import Command
+from ...selection import chosen
+from ..command import Command
 
 
 class DeformFaces(Command):
@@ -18,6 +18,7 @@ class DeformFaces(Command):
             "follows the settings. OK adds an as-built part that follows the nominal part and the scan; its "
             "topology is that of the nominal part.")
     KEYS = "F, D"
+    NEEDS = "Select faces of one part, a scan, or nothing at all."
 
     whole = False
 
@@ -30,8 +31,8 @@ class DeformFaces(Command):
 
     def run(self) -> None:
         """Open the panel; an as-built part is changed, any other gets one beside it."""
-        from ...objects.as_built import is_as_built
-        from ..panels.deformation_panel import open_panel
+        from ....objects.as_built import is_as_built
+        from ...panels.deformation_panel import open_panel
 
         selected = chosen()
         item = selected.parts[0] if selected.parts and is_as_built(selected.parts[0]) else None

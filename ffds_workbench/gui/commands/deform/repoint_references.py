@@ -2,10 +2,10 @@
 """FFDS_RepointReferences: makes what refers to the nominal part refer to the selected as-built one."""
 from __future__ import annotations
 
-from ..running import call, name_of, tell
-from ..selection import chosen
-from ..translating import tr
-from .command import Command, one_part
+from ...running import call, name_of, tell
+from ...selection import chosen
+from ...translating import tr
+from ..command import Command, one_part
 
 
 class RepointReferences(Command):
@@ -18,6 +18,7 @@ class RepointReferences(Command):
             "edges and vertices refers to the same ones of the selected as-built part from now on. What cannot be "
             "computed on it is left as it was.")
     KEYS = "F, O"
+    NEEDS = "Select one as-built part first."
 
     def active(self) -> bool:
         """With one as-built part selected."""
@@ -26,7 +27,7 @@ class RepointReferences(Command):
 
     def run(self) -> None:
         """Re-point, and say what was left as it was."""
-        from ...objects.repointing import references
+        from ....objects.repointing import references
 
         part = one_part(chosen())
         call(part.Document, "Re-point references", f"repoint({name_of(part)})")

@@ -7,11 +7,11 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from ... import api
-from ..qt import QtWidgets
-from ..running import ask, in_background, name_of, record
-from ..translating import said, tr
-from .command import Command
+from .... import api
+from ...qt import QtWidgets
+from ...running import ask, in_background, name_of, record
+from ...translating import said, tr
+from ..command import Command
 from .find_seams import selected_seams
 
 
@@ -32,6 +32,7 @@ class ExportProgram(Command):
     HELP = ("Writes the selected seams for KUKA, ABB or Universal Robots, as a table, as a report or as a "
             "picture.")
     KEYS = "F, P"
+    NEEDS = "Select seams first: Find weld seams makes them."
 
     def active(self) -> bool:
         """With seams selected."""
@@ -39,8 +40,8 @@ class ExportProgram(Command):
 
     def run(self) -> None:
         """Ask for a file and write it."""
-        from ...objects.seams import job_of, robot_of
-        from ...seams.output.writing import PROGRAMS
+        from ....objects.seams import chosen_plan, job_of, robot_of
+        from ....seams.output.writing import PROGRAMS
 
         item = selected_seams()
         stem = item.Label.replace(" ", "_")
@@ -49,7 +50,7 @@ class ExportProgram(Command):
         if not path:
             return
         path += "" if Path(path).suffix else _formats().get(kind, ".src")
-        plan = in_background(tr("Measuring the seams"), job_of(item).run)
+        plan = chosen_plan(item, in_background(tr("Measuring the seams"), job_of(item).run))
         keep_failing = False
         if Path(path).suffix.lower() in PROGRAMS:
             keep_failing = asked_for_failing(plan, robot_of(item))

@@ -2,9 +2,9 @@
 """FFDS_AddTrajectory: the selected seams as trajectories of FreeCAD's Robot workbench."""
 from __future__ import annotations
 
-from ..running import call, in_background, name_of
-from ..translating import tr
-from .command import Command
+from ...running import call, in_background, name_of
+from ...translating import tr
+from ..command import Command
 from .find_seams import selected_seams
 
 
@@ -16,6 +16,7 @@ class AddTrajectory(Command):
     TIP = "Add the selected seams to the document as trajectories for FreeCAD's Robot workbench"
     HELP = "Adds the selected seams to the document as trajectories for the Robot workbench."
     KEYS = "F, R"
+    NEEDS = "Select seams first: Find weld seams makes them."
 
     def active(self) -> bool:
         """With seams selected."""
@@ -23,7 +24,7 @@ class AddTrajectory(Command):
 
     def run(self) -> None:
         """Add them in one undo step."""
-        from ...objects.seams import job_of
+        from ....objects.seams import job_of
 
         item = selected_seams()
         in_background(tr("Measuring the seams"), job_of(item).run)

@@ -2,9 +2,9 @@
 """FFDS_AlignScan: brings the selected scan onto the selected part."""
 from __future__ import annotations
 
-from ..running import call, in_background, name_of, tell
-from ..translating import said, tr
-from .command import Command, part_and_scan
+from ...running import call, in_background, name_of, tell
+from ...translating import said, tr
+from ..command import Command, part_and_scan
 
 _SURE = 0.5
 """Confidence below which the user is asked to look."""
@@ -19,6 +19,7 @@ class AlignScan(Command):
     HELP = ("Finds the rigid motion that brings the scan onto the part, from wherever it lies, and says how sure "
             "that is. Select the part and the scan.")
     KEYS = "F, A"
+    NEEDS = "Select one part and one scan first."
 
     def active(self) -> bool:
         """With one part, and one scan selected or known."""
@@ -26,8 +27,8 @@ class AlignScan(Command):
 
     def run(self) -> None:
         """Find the pose in the background, then move the scan in one undo step."""
-        from ...objects.jobs import alignment_job
-        from ...registration.rigid import AMBIGUOUS
+        from ....objects.jobs import alignment_job
+        from ....registration.rigid import AMBIGUOUS
 
         part, scan = part_and_scan()
         found = in_background(tr("Aligning the scan"), alignment_job.prepare(part, scan, "global"))
