@@ -31,8 +31,13 @@ class FFDSWorkbench(Gui.Workbench):
         from ffds_workbench.gui import commands
 
         commands.register()
-        self.appendToolbar("FFDS", commands.TOOLBAR)
-        self.appendMenu("FFDS", commands.TOOLBAR)
+        commands.appear_in(self)
+
+    def Activated(self):
+        """Called whenever the workbench has been opened."""
+        from ffds_workbench.gui import commands
+
+        commands.make_room()
 
     def ContextMenu(self, recipient):
         """Called when the context menu of the 3D view or the tree opens."""

@@ -40,7 +40,16 @@ def stored_edges(wire: Any, face: Any) -> list[Any]:
     """The edges of a face's wire, in the order and with the orientation in which it holds them; a seam stands there
     twice, which FreeCAD 1.0 and later list once."""
     edges = wire.childShapes(False, True)
-    return edges + [edge.reversed() for edge in edges if edge.isSeam(face)] if _lists_seams_once() else edges
+    if not _lists_seams_once() or not any(edge.isSeam(face) for edge in edges):
+        return edges
+    # A face cut out of a closed one may call seam what it meets once: only the text of the wire tells how often.
+    text = wire.exportBrepToString()
+    children = text[text.rindex("\nWi\n"):].split("*")[0].split()[2:]
+    uses = [(use[0], use[1:], location) for use, location in zip(children[::2], children[1::2], strict=True)]
+    by_number = dict(zip(dict.fromkeys(use[1:] for use in uses), edges, strict=True))
+    listed = {"+": "Forward", "-": "Reversed"}
+    return [edge if listed.get(sign, edge.Orientation) == edge.Orientation else edge.reversed()
+            for sign, edge in ((sign, by_number[number, location]) for sign, number, location in uses)]
 
 
 @lru_cache(maxsize=None)

@@ -44,6 +44,7 @@ bind() {
 }
 bind /proc proc
 bind /dev/shm dev/shm
+bind /dev/pts dev/pts
 if [ -d "$root/../shared" ]; then
     bind "$root/../shared" srv/shared
     mount -o remount,ro,bind "$system/srv/shared"

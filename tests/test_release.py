@@ -79,8 +79,9 @@ def _commit(folder):
 
 
 def _release(folder, *arguments):
+    """Release without the suite on each system, which these tests are a part of."""
     return subprocess.run(["sh", "resources/scripts/release.sh", *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True)
+                          capture_output=True, env={**os.environ, "FFDS_SYSTEMS": ""})
 
 
 def test_the_zip_installs_and_runs_the_bracket(checkout, tmp_path):
@@ -122,6 +123,17 @@ def test_a_release_that_contradicts_itself_is_refused(checkout, tmp_path, file, 
     _commit(folder)
     done = _release(folder, tmp_path)
     assert done.returncode == 3 and words in done.stderr
+    assert not list(tmp_path.glob("*.zip"))
+
+
+def test_no_zip_is_built_where_the_suite_fails(checkout, tmp_path):
+    folder = tmp_path / "ffds"
+    shutil.copytree(checkout, folder)
+    (folder / "tests" / "systems.sh").write_text('echo "asked for $1"; [ "$1" = trixie ]\n')
+    _commit(folder)
+    done = subprocess.run(["sh", "resources/scripts/release.sh", str(tmp_path)], cwd=folder, text=True,
+                          capture_output=True, env={**os.environ, "FFDS_SYSTEMS": "trixie forky"})
+    assert done.returncode == 3 and "fails on forky" in done.stderr and "asked for trixie" in done.stdout
     assert not list(tmp_path.glob("*.zip"))
 
 

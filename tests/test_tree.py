@@ -15,7 +15,8 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "ffds_workbench"
 RANK = {"__init__": 0, "errors": 0, "compat": 0, "find_freecad": 0, "output": 0, "registration": 1, "scan": 2,
         "brep": 3,
-        "seams": 4, "report": 4, "robot": 4.5, "api": 5, "series": 6, "benchmark": 6, "cli": 7, "objects": 7, "gui": 8}
+        "seams": 4, "report": 4, "inspection": 4.2, "robot": 4.5, "api": 5, "series": 6, "serve": 6.5,
+        "benchmark": 6.5, "cli": 7, "objects": 7, "gui": 8}
 GUI_ONLY = {"FreeCADGui", "PySide", "PySide2", "PySide6", "pivy"}
 NETWORK = {"socket", "ssl", "urllib", "http", "ftplib", "smtplib", "requests", "webbrowser"}
 FREECAD = {"FreeCAD", "Part", "Points", "Mesh", "Import"}

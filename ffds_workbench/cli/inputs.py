@@ -71,6 +71,23 @@ def read_inputs(options: argparse.Namespace, progress: Progress) -> tuple[api.Mo
     return api.read_model(options.model, options.object), scan
 
 
+def number(text: str) -> float:
+    """The number that a text is."""
+    try:
+        return float(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number") from error
+
+
+def direction(text: str) -> tuple[float, float, float]:
+    """The direction that a text is, X,Y,Z."""
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise argparse.ArgumentTypeError(f"'{text}' is no direction: write X,Y,Z, for instance 0,0,1")
+    x, y, z = (number(part) for part in parts)
+    return x, y, z
+
+
 def _lattice(text: str) -> tuple[int, int] | str:
     if text == "auto":
         return text

@@ -17,8 +17,8 @@ from typing import NoReturn, TextIO
 from .. import RESOURCES, __version__
 from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
-from . import align, benchmark, prepare, seams, sensor, series, simulate, weld
-from .inputs import add_inputs, add_registration, read_inputs, read_request
+from . import align, benchmark, inspect, prepare, seams, sensor, series, serve, simulate, weld
+from .inputs import add_inputs, add_registration, direction, read_inputs, read_request
 from .terminal import Finished, ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
@@ -99,6 +99,8 @@ def command_line() -> argparse.ArgumentParser:
     seams.add(commands)
     weld.add(commands)
     series.add(commands)
+    inspect.add(commands)
+    serve.add(commands)
     _add_demo(commands)
     benchmark.add(commands)
     return parser
@@ -110,6 +112,11 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--out", type=Path, required=True, help="as-built model: .step, .brep or .FCStd")
     command.add_argument("--report", type=Path, metavar="OUT.json", help="the figures, as JSON")
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the deviation before and after")
+    command.add_argument("--html", type=Path, metavar="OUT.html", help="the report as one page, with the part to turn")
+    command.add_argument("--pdf", type=Path, metavar="OUT.pdf", help="the report as PDF")
+    command.add_argument("--side", type=direction, action="append", default=[], metavar="X,Y,Z",
+                         help="from the part to the viewer of a picture in HTML and PDF; may be repeated (default: the "
+                              "side that was scanned, and the other one)")
     add_registration(command)
     command.set_defaults(run=register)
 
@@ -133,7 +140,8 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     from .. import api
 
     inputs = [options.model, *options.scan]
-    api.check_outputs((options.out, options.report, options.picture), inputs)
+    outputs = options.out, options.report, options.picture, options.html, options.pdf
+    api.check_outputs(outputs, inputs)
     api.check_model_output(options.out)
     request = read_request(options)
     model, scan = read_inputs(options, progress)
@@ -141,8 +149,9 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     result = api.run(request, model, scan, progress)
     progress(f"Writing {options.out}")
     written = api.write(result, options.out, options.report, options.picture, inputs)
+    api.write_pages(result, options.html, options.pdf, inputs, options.side)
     read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
-    return "\n\n".join([result.table(), read_back, _written(options.out, options.report, options.picture)])
+    return "\n\n".join([result.table(), read_back, _written(*outputs)])
 
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:

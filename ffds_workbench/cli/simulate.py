@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from .inputs import direction, number
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
@@ -21,20 +22,20 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--out", type=Path, required=True, metavar="SCAN.ply", help="the scan, in mm")
     command.add_argument("--truth", type=Path, metavar="OUT.npz", help="the ground truth, as arrays")
-    command.add_argument("--spacing", type=_number, default=0.2, metavar="MM",
+    command.add_argument("--spacing", type=number, default=0.2, metavar="MM",
                          help="mean distance of the points (default: 0.2)")
-    command.add_argument("--noise", type=_number, default=0.13, metavar="MM",
+    command.add_argument("--noise", type=number, default=0.13, metavar="MM",
                          help="standard deviation along the line of sight (default: 0.13)")
-    command.add_argument("--correlation", type=_number, default=0.0, metavar="MM",
+    command.add_argument("--correlation", type=number, default=0.0, metavar="MM",
                          help="filter width that correlates the noise (default: white noise)")
-    command.add_argument("--view", nargs="+", action="extend", default=[], type=_view, metavar="X,Y,Z",
+    command.add_argument("--view", nargs="+", action="extend", default=[], type=direction, metavar="X,Y,Z",
                          help="direction from the part to the camera; several shots are fused (default: no camera, the "
                               "whole surface is seen)")
-    command.add_argument("--outliers", type=_number, default=0.0, metavar="SHARE", help="gross outliers, 0 to 1")
-    command.add_argument("--dropout", type=_number, default=0.0, metavar="SHARE",
+    command.add_argument("--outliers", type=number, default=0.0, metavar="SHARE", help="gross outliers, 0 to 1")
+    command.add_argument("--dropout", type=number, default=0.0, metavar="SHARE",
                          help="share of the points lost beside edges, 0 to 1")
     command.add_argument("--holes", type=int, default=0, metavar="N", help="round gaps of 3 to 7 mm radius")
-    command.add_argument("--table", type=_number, metavar="MM", help="a flat background this far behind the part")
+    command.add_argument("--table", type=number, metavar="MM", help="a flat background this far behind the part")
     command.add_argument("--pose-error", type=_numbers, default=(0.0,), metavar="MM[,RAD]",
                          help="how badly the shots fit together: shift, and rotation, per axis")
     command.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same scan")
@@ -51,7 +52,7 @@ def settings(options: argparse.Namespace) -> SensorSettings:
     if options.seed < 0:
         raise InputError(f"A seed is not negative, as {options.seed} is.")
     return SensorSettings(spacing=options.spacing, noise=options.noise, correlation=options.correlation,
-                          views=tuple(View(direction) for direction in options.view), outliers=options.outliers,
+                          views=tuple(View(towards) for towards in options.view), outliers=options.outliers,
                           edge_dropout=options.dropout, holes=options.holes, table=options.table,
                           pose_error=shift, pose_error_angle=angle,
                           seed=options.seed)
@@ -75,23 +76,8 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     return f"{len(result.scan.points)} points{shots}\n\nWritten: {names}"
 
 
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number") from error
-
-
 def _numbers(text: str) -> tuple[float, ...]:
-    values = tuple(_number(part) for part in text.split(","))
+    values = tuple(number(part) for part in text.split(","))
     if len(values) > 2:
         raise argparse.ArgumentTypeError(f"'{text}' is more than a shift in mm and a rotation in rad")
     return values
-
-
-def _view(text: str) -> tuple[float, float, float]:
-    parts = text.split(",")
-    if len(parts) != 3:
-        raise argparse.ArgumentTypeError(f"'{text}' is no direction: write X,Y,Z, for instance 0,0,1")
-    x, y, z = (_number(part) for part in parts)
-    return x, y, z

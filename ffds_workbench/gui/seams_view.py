@@ -79,7 +79,10 @@ class SeamsView(Stateless):
         return False
 
     def doubleClicked(self, vobj: Any) -> bool:
-        """Their settings are in the properties; FreeCAD would begin to drag them."""
+        """Open their panel; FreeCAD would begin to drag them."""
+        from .panels.seams_panel import open_panel
+
+        open_panel(vobj.Object)
         return True
 
     def claimChildren(self) -> list:

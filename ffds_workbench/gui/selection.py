@@ -10,6 +10,42 @@ import FreeCADGui as Gui
 from .translating import tr
 
 
+Place = tuple[float, float, float]
+_REACH = 0.1
+"""How far from a part, as a share of its size, the point of a scan may be that was clicked to mean one of its faces."""
+
+
+class _Clicks:
+    """Remembers where selected objects were clicked: FreeCAD forgets it for those without faces."""
+
+    def __init__(self) -> None:
+        self.places: dict[tuple[str, str], list[Place]] = {}
+        self.watching = False
+
+    def addSelection(self, document: str, name: str, element: str, place: Place) -> None:
+        """As FreeCAD tells it; picks in the tree come without a place."""
+        if tuple(place) != (0.0, 0.0, 0.0):
+            self.places.setdefault((document, name), []).append(tuple(place))
+
+    def removeSelection(self, document: str, name: str, element: str) -> None:
+        """As FreeCAD tells it."""
+        self.places.pop((document, name), None)
+
+    def clearSelection(self, document: str) -> None:
+        """As FreeCAD tells it."""
+        self.places.clear()
+
+
+_clicks = _Clicks()
+
+
+def watch_clicks() -> None:
+    """From now on the places of clicks are known."""
+    if not _clicks.watching:
+        Gui.Selection.addObserver(_clicks)
+        _clicks.watching = True
+
+
 @dataclass
 class Chosen:
     """The selection.
@@ -19,6 +55,7 @@ class Chosen:
     parts : objects with a shape, in the order of their selection
     faces : names of the selected faces, by the name of their part
     scans : Points objects
+    places : where these were clicked in the view, (x, y, z) in mm
     others : labels of what is none of these, an edge as "Part.Edge3"
     refusal : why a part that is selected cannot be used, "" for none
     """
@@ -26,6 +63,7 @@ class Chosen:
     parts: list[Any] = field(default_factory=list)
     faces: dict[str, list[str]] = field(default_factory=dict)
     scans: list[Any] = field(default_factory=list)
+    places: list[Place] = field(default_factory=list)
     others: list[str] = field(default_factory=list)
     refusal: str = ""
 
@@ -37,6 +75,7 @@ def chosen() -> Chosen:
         item = entry.Object
         if item.isDerivedFrom("Points::Feature"):
             found.scans.append(item)
+            found.places += _clicks.places.get((item.Document.Name, item.Name), [])
         elif _is_part(item):
             if item not in found.parts:
                 found.parts.append(item)
@@ -59,6 +98,33 @@ def _through_links() -> str:
                 return tr("This part is shown through the link {link}: pick it where it stands itself, or make a "
                           "simple copy of the link.").format(link=links[0].Label)
     return ""
+
+
+def face_at(document: Any, place: Place) -> tuple[Any, str] | None:
+    """The visible part, and the name of its face, that lie nearest to a point of a scan; None where there is none near.
+
+    ``place`` is in mm, in the document's coordinates.
+    """
+    import Part
+
+    from ..brep.model_files import outer_placement
+
+    vertex, best, found = Part.Vertex(*place), float("inf"), None
+    for item in parts_shown(document):
+        shape = Part.getShape(item).copy()
+        shape.Placement = outer_placement(item).multiply(shape.Placement)
+        best = min(best, _REACH * shape.BoundBox.DiagonalLength) if found is None else best
+        for number, face in enumerate(shape.Faces, 1):
+            box = face.BoundBox
+            box.enlarge(best)
+            if box.isInside(vertex.Point) and (distance := face.distToShape(vertex)[0]) < best:
+                best, found = distance, (item, f"Face{number}")
+    return found
+
+
+def parts_shown(document: Any) -> list[Any]:
+    """The visible parts of a document."""
+    return [item for item in document.Objects if item.Visibility and _is_part(item)]
 
 
 def scans_of(document: Any) -> list[Any]:

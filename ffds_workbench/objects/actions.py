@@ -20,13 +20,13 @@ from .jobs.manual_alignment import align_by_points
 from .jobs.preparation_job import prepare_scan
 from .jobs.registration_job import Job, make_job
 from .repointing import repoint
-from .seams import add_trajectories, export_program, make_seams
+from .seams import add_trajectories, choose_seams, export_program, make_seams
 from .sources import standing_for
 from .waiting import wait_for
 
-__all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "export_as_built", "export_program",
-           "import_scan", "job_of", "load_example", "make_as_built", "make_seams", "prepare_scan", "replace_in_place",
-           "replace_scan", "repoint", "simulate_scan"]
+__all__ = ["add_trajectories", "align_by_points", "align_scan", "change_as_built", "choose_seams", "export_as_built",
+           "export_program", "export_report", "import_scan", "job_of", "load_example", "make_as_built", "make_seams",
+           "prepare_scan", "replace_in_place", "replace_scan", "repoint", "simulate_scan"]
 
 
 def import_scan(document: Any, paths: str | Sequence[str], unit: str = "mm") -> Any:
@@ -151,6 +151,25 @@ def export_as_built(item: Any, path: str) -> None:
     check_writable(Path(path))
     with replacing(Path(path)) as temporary:
         model_file.write(model, temporary[0])
+
+
+def export_report(item: Any, path: str, sides: Sequence[tuple[float, float, float]] = ()) -> None:
+    """Write the report on an as-built part for people, as .html or .pdf: whole or not at all.
+
+    ``sides`` are those from which its pictures show it, vectors from the part to the viewer.
+
+    Raises
+    ------
+    InputError : the object is no as-built part, or the file is of another format or cannot be written
+    """
+    if not is_as_built(item):
+        raise InputError(f"{item.Label} is no as-built part of this workbench.")
+    kind = Path(path).suffix.lower()
+    if kind not in (".html", ".pdf"):
+        raise InputError(f"The report {path} is of an unknown format: use .html or .pdf.")
+    api.check_outputs((path,))
+    job = job_of(item)
+    wait_for(item.Label, lambda progress: api.write_pages(job.run(progress), **{kind[1:]: path}, sides=sides))
 
 
 def job_of(item: Any) -> Job:

@@ -68,6 +68,7 @@ def repoint(as_built: Any) -> list[Any]:
         setattr(reference.item, reference.name, as_built.Source if reference.value is None else value)
     as_built.Document.recompute()
     failed = [user for user in users if not user.isValid() and user not in broken]
+    reasons = ", ".join(dict.fromkeys(user.getStatusString().strip().rstrip(".") for user in failed))
     for reference in found:
         if reference.item in failed:
             setattr(reference.item, reference.name, reference.value)
@@ -75,7 +76,7 @@ def repoint(as_built: Any) -> list[Any]:
         as_built.Document.recompute()
     if len(failed) == len(users):
         names = ", ".join(user.Label for user in failed)
-        raise RefusedError(f"{names} cannot be computed on {as_built.Label}: nothing was re-pointed.")
+        raise RefusedError(f"{names} cannot be computed on {as_built.Label}, and nothing was re-pointed: {reasons}.")
     return [user for user in users if user not in failed]
 
 

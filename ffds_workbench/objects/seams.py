@@ -24,7 +24,7 @@ from ..seams.programs.moves import moves
 from ..seams.programs.trajectory import add_trajectories as add_moves
 from . import views
 from .as_built import is_as_built
-from .feature import HIDDEN, READ_ONLY, Feature, Property
+from .feature import HIDDEN, OUTPUT, READ_ONLY, Feature, Property
 from .jobs.seam_job import SeamJob, SeamWishes, make_seam_job
 from .waiting import wait_for
 
@@ -71,6 +71,8 @@ class Seams(Feature):
         Property("Approach", "App::PropertyLength", "Robot", "Distance to approach from and retract to",
                  _ROBOT.approach),
         Property("KeepFailing", "App::PropertyBool", "Robot", "Seams beyond their limits are in the programs as well"),
+        Property("Programmed", "App::PropertyStringList", "Robot",
+                 "The seams that come into the programs, in their order; none: all within their limits", None, OUTPUT),
         Property("Holders", "App::PropertyLinkListGlobal", "Seams", "What moves the parts when it moves", None,
                  READ_ONLY | HIDDEN),
         Property("Verdicts", "App::PropertyStringList", "Result", "Seam by seam: its edges, pass or fail", None,
@@ -189,7 +191,7 @@ def export_program(item: Any, path: str, keep_failing: bool = False) -> list[str
     ------
     InputError, RefusedError : as `api.write_seams` does
     """
-    plan, suffix = _plan(item), Path(path).suffix.lower()
+    plan, suffix = _chosen_plan(item), Path(path).suffix.lower()
     extra = {".json": "report_path", ".png": "picture"}
     if suffix in extra:
         return api.write_seams(plan, [], **{extra[suffix]: path})
@@ -204,7 +206,7 @@ def add_trajectories(item: Any) -> list[Any]:
     ------
     RefusedError : there is none
     """
-    plan, robot = _plan(item), robot_of(item)
+    plan, robot = _chosen_plan(item), robot_of(item)
     seams = api.programmed_seams(plan, robot)
     if not seams:
         raise RefusedError(f"No seam of {item.Label} is within its limits: look at its report, or set KeepFailing.")
@@ -212,6 +214,42 @@ def add_trajectories(item: Any) -> list[Any]:
     for trajectory in added:
         trajectory.purgeTouched()
     return added
+
+
+def choose_seams(item: Any, names: Sequence[str], keep_failing: bool = False) -> None:
+    """Say which seams come into the programs, in which order; those beyond their limits only with ``keep_failing``.
+
+    Raises
+    ------
+    InputError : the object has no seam of a name
+    """
+    unknown = [name for name in names if name not in keys_of(item)]
+    if unknown:
+        raise InputError(f"{item.Label} has no seam {unknown[0]}: its panel lists those it has.")
+    touched = "Touched" in item.State
+    item.Programmed, item.KeepFailing = list(names), keep_failing
+    if not touched:  # the seams themselves stay as they are
+        item.purgeTouched()
+
+
+def keys_of(item: Any) -> list[str]:
+    """The names of the seams, numbered where several have the same."""
+    names = [seam["name"] for seam in json.loads(item.Report)["seams"]]
+    return [name if names.count(name) == 1 else f"{name} ({names[:k].count(name) + 1})" for k, name in enumerate(names)]
+
+
+def chosen_names(item: Any) -> list[str]:
+    """The seams that come into the programs, in their order: the chosen ones, or all within their limits."""
+    keys, seams = keys_of(item), json.loads(item.Report)["seams"]
+    chosen = [name for name in item.Programmed if name in keys]
+    return chosen or [key for key, seam in zip(keys, seams, strict=True) if item.KeepFailing or not seam["exceeded"]]
+
+
+def chosen_plan(item: Any, plan: SeamPlan) -> SeamPlan:
+    """The plan with the chosen seams alone, in their order; as it is where none were chosen."""
+    keys = keys_of(item)
+    chosen = [name for name in item.Programmed if name in keys]
+    return replace(plan, seams=tuple(plan.seams[keys.index(name)] for name in chosen)) if chosen else plan
 
 
 def robot_of(item: Any) -> api.RobotSettings:
@@ -224,6 +262,10 @@ def _plan(item: Any) -> SeamPlan:
     if not is_seams(item):
         raise InputError(f"{item.Label} holds no seams: find the seams of a part first.")
     return wait_for(item.Label, job_of(item).run)
+
+
+def _chosen_plan(item: Any) -> SeamPlan:
+    return chosen_plan(item, _plan(item))
 
 
 def _nominal_of(part: Any, nominal: Any) -> Any:

@@ -90,11 +90,20 @@ def _colour_limit(panels: Sequence[Panel]) -> float:
 
 def viewing_axes(normals: Array) -> Array:
     """Rows right, up and towards the viewer, (3, 3), for a view on the side that the ``normals`` (n, 3) face."""
+    return axes_towards(side_of(normals))
+
+
+def side_of(normals: Array) -> Array:
+    """From the part to a viewer of the side that the ``normals`` (n, 3) face, a little askew: (3,), of length 1."""
     towards = normals.mean(axis=0)
     if np.linalg.norm(towards) < 0.2:
         towards = np.array([0.6, -0.9, 0.7])
     towards = towards / np.linalg.norm(towards) + np.array([0.28, -0.22, 0.18])
-    towards /= np.linalg.norm(towards)
+    return towards / np.linalg.norm(towards)
+
+
+def axes_towards(towards: Array) -> Array:
+    """Rows right, up and towards the viewer, (3, 3), where ``towards`` (3,) has length 1."""
     up = np.array([0.0, 0.0, 1.0]) if abs(towards[2]) < 0.93 else np.array([0.0, 1.0, 0.0])
     right = np.cross(up, towards)
     right /= np.linalg.norm(right)

@@ -50,6 +50,7 @@ class SeriesSetup:
     folder : where all results go
     limits : what one part may take
     plan : file of the inspection plan that every part is held against, or None
+    checked : whether model and request have been found sound; else what is wrong with them is the parts' own refusal
     """
 
     model: Path
@@ -59,6 +60,7 @@ class SeriesSetup:
     folder: Path
     limits: SeriesLimits = SeriesLimits()
     plan: Path | None = None
+    checked: bool = True
 
     def digest(self) -> str:
         """Of all that a result depends on: the model's content, the plan's, and how parts are registered."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 
-from ..errors import FfdsError
+from ..errors import FfdsError, InputError
 from . import folder
 from .part_process import PartProcess
 from .setup import REFUSED, Outcome, PartJob, SeriesSetup
@@ -35,6 +35,10 @@ def do_part(setup: SeriesSetup, job: PartJob) -> Outcome:
                 _forget()
             said = f"The process that registered it died twice ({', '.join(fates)}): the scan may be damaged."
             return _settled(setup, Outcome(job.scan, job.name, REFUSED, said, time.monotonic() - start))
+        except InputError as error:
+            if not setup.checked:
+                return _settled(setup, Outcome(job.scan, job.name, error.exit_code, str(error)))
+            return Outcome(job.scan, job.name, REFUSED, f"The machine failed: {error}", time.monotonic() - start, False)
         except (FfdsError, OSError) as error:
             return Outcome(job.scan, job.name, REFUSED, f"The machine failed: {error}", time.monotonic() - start, False)
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import ast
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -20,24 +20,26 @@ from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "ffds_workbench"
-FLOORS = (("gui",), ("cli", "objects", "benchmark"), ("api",), ("seams", "report"), ("brep",), ("scan",),
-          ("registration/rigid", "registration/joint", "registration/face"), ("registration",))
-"""From the roof to the ground: what stands lower may be used by what stands higher."""
+DIVIDED = "registration"
+"""The package whose own packages are rooms of the picture as well; what lies beside them is its ground floor."""
 INK, SOFT, FILL = "#1b1f24", "#8a939c", "#e6eef5"
 
 
 def room_of(parts: tuple[str, ...]) -> str | None:
     """The room that a module of the package, given by its dotted parts, belongs to; None for small shared things."""
-    names = [name for floor in FLOORS for name in floor]
-    return next((name for name in sorted(names, key=len, reverse=True)
-                 if parts[: name.count("/") + 1] == tuple(name.split("/"))), None)
+    inner = "/".join(parts[:2])
+    return (inner if parts[0] == DIVIDED and (PACKAGE / inner).is_dir()
+            else parts[0] if (PACKAGE / parts[0]).is_dir() else None)
 
 
 def imports(path: Path) -> Iterator[tuple[str, ...]]:
-    """Modules of the package that a file imports, as dotted parts below the package."""
+    """Modules of the package that a file imports when it runs, as dotted parts below the package."""
     here = path.relative_to(PACKAGE).with_suffix("").parts
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.level:
+    tree = ast.parse(path.read_text("utf-8"))
+    for_types = {id(node) for test in ast.walk(tree) if isinstance(test, ast.If)
+                 and "TYPE_CHECKING" in ast.dump(test.test) for node in test.body}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and id(node) not in for_types:
             base = here[: len(here) - node.level]
             module = (*base, *(node.module or "").split(".")) if node.module else base
             yield from ((*module, alias.name) for alias in node.names)
@@ -69,15 +71,29 @@ def direct(used: Counter[tuple[str, str]]) -> Counter[tuple[str, str]]:
                     if not any(other in reached(step) for step in below[user] - {other})})
 
 
+def floors(rooms: Iterable[str], used: Iterable[tuple[str, str]]) -> list[list[str]]:
+    """The rooms from the ground up: each stands right above the highest of those that it uses."""
+    below: dict[str, set[str]] = {}
+    for user, other in used:
+        below.setdefault(user, set()).add(other)
+
+    def floor(room: str) -> int:
+        return 1 + max((floor(other) for other in below.get(room, ())), default=-1)
+
+    heights = {room: floor(room) for room in sorted(rooms)}
+    return [[room for room in heights if heights[room] == height] for height in range(max(heights.values()) + 1)]
+
+
 def draw(out: Path) -> None:
     """Write the picture."""
     files, used = arrows()
-    figure = Figure(figsize=(8.5, 8.0))
+    building = floors(files, used)
+    figure = Figure(figsize=(8.5, 0.85 * len(building)))
     axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(0, 10), ylim=(-0.2, len(FLOORS) * 1.2))
+    axes.set(xlim=(0, 10), ylim=(-0.2, len(building) * 1.2))
     axes.axis("off")
     place = {}
-    for floor, names in enumerate(reversed(FLOORS)):
+    for floor, names in enumerate(building):
         for k, name in enumerate(names):
             x, y = 10 * (k + 0.5) / len(names), 1.2 * floor + 0.5
             place[name] = x, y, floor

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Sourced by setup.sh and test.sh: which Debian packages are needed, and how they are installed.
 
-run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed"
-test_packages="python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth"
+run_packages="freecad freecad-python3 python3-numpy python3-scipy python3-matplotlib python3-open3d python3-distributed python3-fastapi python3-uvicorn"
+test_packages="python3-httpx python3-pytest python3-hypothesis python3-jsonschema python3-sphinx python3-myst-parser mypy flake8 xvfb xauth"
+# Done without where a system has them not: the library with which reports turn the part, and a browser to try that.
+wished_package="libjs-three"
+wished_test_package="chromium"
 
 # The package that tests windows, of the Qt that FreeCAD is built with: 5 in Debian 12 and 13, 6 later.
 qt_test_package() {
@@ -34,6 +37,15 @@ install_packages() {
     $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq update
     # shellcheck disable=SC2086 # the list is meant to be split
     $as_root DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $missing
+}
+
+# Install a package that can be done without, where this system knows it.
+install_if_there() {
+    if dpkg-query -W "$1" >/dev/null 2>&1 || apt-cache show "$1" >/dev/null 2>&1; then
+        install_packages "$1" || echo "ffds: left out, as it could not be installed: $1" >&2
+    else
+        echo "ffds: left out, as this system does not know it: $1" >&2
+    fi
 }
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # resources/scripts/release.sh DIR [REPOSITORY]: the zip that FreeCAD's Addon Manager installs, DIR/FFDS-VERSION.zip.
 #
-# Checks first that version, date and changelog agree and that all is committed. The repository's address is known to
-# who publishes, not to the sources: named here, it goes into the zip's package.xml, with those of its readme and issues.
+# Checks first that version, date and changelog agree and that all is committed, then runs the suite on the systems that
+# $FFDS_SYSTEMS names, unless told all three that are supported: no zip is built where one fails. The repository's address
+# is known to who publishes, not to the sources: named here, it goes into the zip's package.xml, with those of its readme
+# and issues.
 set -eu
 
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
@@ -32,6 +34,10 @@ case "$repository" in
 "" | https://*) ;;
 *) refuse "the repository's address begins with https://" ;;
 esac
+
+for system in ${FFDS_SYSTEMS-bookworm trixie forky}; do
+    sh tests/systems.sh "$system" || refuse "the suite fails on $system"
+done
 
 GIT_INDEX_FILE=$(mktemp)
 export GIT_INDEX_FILE

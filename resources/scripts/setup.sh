@@ -9,6 +9,7 @@ root=$(cd -- "$root" && pwd)
 
 # shellcheck disable=SC2086 # the list is meant to be split
 install_packages $run_packages
+install_if_there "$wished_package"
 
 mods=${XDG_DATA_HOME:-$HOME/.local/share}/FreeCAD/Mod
 link=$mods/FFDS

@@ -11,6 +11,8 @@ cd "$root"
 
 # shellcheck disable=SC2086 # the lists are meant to be split
 install_packages $run_packages $test_packages
+install_if_there "$wished_package"
+install_if_there "$wished_test_package"
 install_packages "$(qt_test_package)"
 
 python=/usr/bin/python3

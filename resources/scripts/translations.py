@@ -26,12 +26,14 @@ LANGUAGES = ("de",)
 Text = tuple[str, str]
 """Context and text."""
 LAYERS = ("registration", "scan", "brep", "seams", "report", "api", "objects")
+GROUPS = ("Scan", "Deform", "Inspect", "Weld", "Learn")
+"""Titles of the submenus and toolbars."""
 SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress": 0, "report": 0, "_no_answer": 0}
 """Calls that say something, and which argument it is."""
 PHRASES = {"sentences", "reason", "lost", "where", "missing", "was", "renamed", "phrases", "notes", "left_out"}
 """Variables that hold sentences, or a part of one."""
 ANSWERS = {"text", "doubts", "turn_name", "_branching", "blocked_ways", "check_verdict", "far_scan_refusal",
-           "_why_failed"}
+           "_why_failed", "verdict_sentence", "_off_text", "_thin_text", "_carried_text", "_boolean_text"}
 """Functions that return one."""
 WORDS = ("scan", "part", "faces", "edges", "vertices")
 """Words that stand where a sentence has a value."""
@@ -40,6 +42,7 @@ WORDS = ("scan", "part", "faces", "edges", "vertices")
 def texts() -> list[Text]:
     """All texts, each once, in order."""
     found: list[Text] = [("Workbench", "Deform a CAD model to a scan; its topology stays")]
+    found += (("Workbench", title) for group in GROUPS for title in (group, f"FFDS {group}"))
     for path in sorted((ROOT / "ffds_workbench" / "gui").rglob("*.py")):
         tree = ast.parse(path.read_text("utf-8"))
         found += _of_calls(tree)
@@ -70,7 +73,7 @@ def _said(tree: ast.AST) -> Iterator[str]:
         else:
             continue
         for value in spoken:
-            yield from _templates(value)
+            yield from (text for text in _templates(value) if not text.startswith("\t"))  # a line of a program
 
 
 def _templates(node: ast.expr) -> Iterator[str]:
@@ -132,6 +135,8 @@ def _of_commands(tree: ast.AST) -> Iterator[Text]:
                       if isinstance(target, ast.Name)}
             if values.get("NAME"):
                 yield from ((values["NAME"], values[name]) for name in ("MENU", "TIP", "HELP"))
+            if values.get("NEEDS"):
+                yield "FFDS", values["NEEDS"]
 
 
 def _of_properties(tree: ast.AST) -> Iterator[Text]:

@@ -153,6 +153,10 @@
       <translation>Der Bericht als JSON</translation>
     </message>
     <message>
+      <source>The seams that come into the programs, in their order; none: all within their limits</source>
+      <translation>Die Nähte, die in die Programme kommen, in ihrer Reihenfolge; keine: alle innerhalb ihrer Grenzen</translation>
+    </message>
+    <message>
       <source>Weld in the other direction</source>
       <translation>In der anderen Richtung schweißen</translation>
     </message>
@@ -194,6 +198,30 @@
     <message>
       <source>'{name}' is no face to freeze: write names like Face1, Face4.</source>
       <translation>„{name}“ ist keine Fläche, die man festhalten kann: Schreiben Sie Namen wie Face1, Face4.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Click the upright face&lt;/b&gt; in the 3D view, through the scan that lies on it: FFDS takes the face that the scan shows. Ctrl adds more faces.</source>
+      <translation>&lt;b&gt;Die aufrechte Fläche anklicken&lt;/b&gt;, in der 3D-Ansicht durch den Scan hindurch, der auf ihr liegt: FFDS nimmt die Fläche, die der Scan zeigt. Strg nimmt weitere hinzu.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Deform it&lt;/b&gt;: the preview follows every setting. Press OK when you like it; or deform the whole part, where faces that the scan does not see are carried along.</source>
+      <translation>&lt;b&gt;Anpassen&lt;/b&gt;: Die Vorschau folgt jeder Einstellung. OK, wenn sie gefällt; oder das ganze Teil anpassen, wobei Flächen, die der Scan nicht sieht, mitgehen.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Go on&lt;/b&gt;: find weld seams, or write the as-built part. Everything is one undo step: Ctrl+Z.</source>
+      <translation>&lt;b&gt;Weitermachen&lt;/b&gt;: Schweißnähte finden oder das Ist-Teil schreiben. Alles ist ein Schritt zum Rückgängigmachen: Strg+Z.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Load the example&lt;/b&gt;: a sheet-metal bracket, and a scan of it as it came out of the press, in blue.</source>
+      <translation>&lt;b&gt;Das Beispiel laden&lt;/b&gt;: ein Blechwinkel und in Blau ein Scan davon, wie er aus der Presse kam.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Look at the deviation&lt;/b&gt;, before and after, and read values under the cursor.</source>
+      <translation>&lt;b&gt;Die Abweichung ansehen&lt;/b&gt;, vorher und nachher, und Werte unter dem Mauszeiger ablesen.</translation>
+    </message>
+    <message>
+      <source>&lt;b&gt;Read the result&lt;/b&gt;: a verdict in a sentence, a table of the faces, and what to look at. A click on a row shows its face.</source>
+      <translation>&lt;b&gt;Das Ergebnis lesen&lt;/b&gt;: ein Urteil in einem Satz, eine Tabelle der Flächen und worauf zu achten ist. Ein Klick auf eine Zeile zeigt ihre Fläche.</translation>
     </message>
     <message>
       <source>&lt;b&gt;{value} mm&lt;/b&gt; at {place}</source>
@@ -244,6 +272,10 @@
       <translation>Alle Flächen gemeinsam; die der Scan nicht sieht, gehen mit</translation>
     </message>
     <message>
+      <source>All faces, edges and corners are those of the nominal part.</source>
+      <translation>Alle Flächen, Kanten und Ecken sind die des Soll-Teils.</translation>
+    </message>
+    <message>
       <source>All points are picked: press OK.</source>
       <translation>Alle Punkte sind gewählt: Drücken Sie OK.</translation>
     </message>
@@ -284,12 +316,28 @@
       <translation>Vor oder nach der Verformung</translation>
     </message>
     <message>
+      <source>By box</source>
+      <translation>Per Rahmen</translation>
+    </message>
+    <message>
       <source>Cancel</source>
       <translation>Abbrechen</translation>
     </message>
     <message>
+      <source>Check for Boolean operations: {verdict}.</source>
+      <translation>Prüfung für Boolesche Operationen: {verdict}.</translation>
+    </message>
+    <message>
+      <source>Choose seams</source>
+      <translation>Nähte wählen</translation>
+    </message>
+    <message>
       <source>Choose what shall be done first.</source>
       <translation>Wählen Sie zuerst, was geschehen soll.</translation>
+    </message>
+    <message>
+      <source>Colours</source>
+      <translation>Farben</translation>
     </message>
     <message>
       <source>Colours on</source>
@@ -344,16 +392,32 @@
       <translation>Abstände des Scans von den Flächen, und der Anteil der Flächen, den er zeigt</translation>
     </message>
     <message>
+      <source>Draw a box in the 3D view: the faces in it that the scan shows are picked</source>
+      <translation>Einen Rahmen in der 3D-Ansicht aufziehen: Die Flächen darin, die der Scan zeigt, werden gewählt</translation>
+    </message>
+    <message>
       <source>Export as-built part</source>
       <translation>Ist-Teil exportieren</translation>
+    </message>
+    <message>
+      <source>Export report</source>
+      <translation>Bericht exportieren</translation>
     </message>
     <message>
       <source>Export robot program</source>
       <translation>Roboterprogramm exportieren</translation>
     </message>
     <message>
+      <source>Export…</source>
+      <translation>Exportieren …</translation>
+    </message>
+    <message>
       <source>FFD by Hsu</source>
       <translation>FFD nach Hsu</translation>
+    </message>
+    <message>
+      <source>Face</source>
+      <translation>Fläche</translation>
     </message>
     <message>
       <source>Faces of two parts are selected: choose those of one.</source>
@@ -374,6 +438,14 @@
     <message>
       <source>Fine alignment from there</source>
       <translation>Von dort fein ausrichten</translation>
+    </message>
+    <message>
+      <source>Finish or close the open task first.</source>
+      <translation>Zuerst die offene Aufgabe beenden oder schließen.</translation>
+    </message>
+    <message>
+      <source>First steps with FFDS</source>
+      <translation>Erste Schritte mit FFDS</translation>
     </message>
     <message>
       <source>For the published methods, on each face</source>
@@ -402,6 +474,10 @@
     <message>
       <source>Import scan</source>
       <translation>Scan importieren</translation>
+    </message>
+    <message>
+      <source>Import scan…</source>
+      <translation>Scan importieren …</translation>
     </message>
     <message>
       <source>In which unit is the scan?</source>
@@ -448,6 +524,10 @@
       <translation>Darf sich dehnen</translation>
     </message>
     <message>
+      <source>Mean deviation of each face in mm, half the width of its 95 % band (±), how much of it the scan shows, and where its shape comes from. A click shows the face.</source>
+      <translation>Mittlere Abweichung jeder Fläche in mm, die halbe Breite ihres 95-%-Bandes (±), wie viel von ihr der Scan zeigt und woher ihre Form kommt. Ein Klick zeigt die Fläche.</translation>
+    </message>
+    <message>
       <source>Mean distance of the points</source>
       <translation>Mittlerer Abstand der Punkte</translation>
     </message>
@@ -474,6 +554,10 @@ Parts touch where they are nearer to each other than (mm):</source>
 Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
     <message>
+      <source>No seam is ticked: tick those that the robot is to weld.</source>
+      <translation>Keine Naht ist angehakt: diejenigen anhaken, die der Roboter schweißen soll.</translation>
+    </message>
+    <message>
       <source>Noise</source>
       <translation>Rauschen</translation>
     </message>
@@ -486,6 +570,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Normalen, zum Auge hin</translation>
     </message>
     <message>
+      <source>One colour runs into the next, or a few with borders between them, or nothing but within the tolerance, above and below it</source>
+      <translation>Eine Farbe geht in die nächste über, oder wenige mit Grenzen dazwischen, oder nur innerhalb der Toleranz, darüber und darunter</translation>
+    </message>
+    <message>
       <source>One point every {before} mm, now {after} mm. Light blue stays, red goes.</source>
       <translation>Alle {before} mm ein Punkt, jetzt alle {after} mm. Hellblau bleibt, Rot geht.</translation>
     </message>
@@ -496,6 +584,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Only near {part}</source>
       <translation>Nur nahe {part}</translation>
+    </message>
+    <message>
+      <source>Open a document first.</source>
+      <translation>Zuerst ein Dokument öffnen.</translation>
     </message>
     <message>
       <source>Or leave out the fine alignment.</source>
@@ -614,6 +706,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Bericht (*.json)</translation>
     </message>
     <message>
+      <source>Report…</source>
+      <translation>Bericht …</translation>
+    </message>
+    <message>
       <source>Result</source>
       <translation>Ergebnis</translation>
     </message>
@@ -638,6 +734,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Scans</translation>
     </message>
     <message>
+      <source>Seam</source>
+      <translation>Naht</translation>
+    </message>
+    <message>
       <source>Seams</source>
       <translation>Nähte</translation>
     </message>
@@ -646,8 +746,44 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Startwert</translation>
     </message>
     <message>
+      <source>Select a scan first.</source>
+      <translation>Zuerst einen Scan auswählen.</translation>
+    </message>
+    <message>
+      <source>Select faces of one part, a scan, or nothing at all.</source>
+      <translation>Flächen eines Teils, einen Scan oder gar nichts auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one as-built part first.</source>
+      <translation>Zuerst ein Ist-Teil auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part and one scan first.</source>
+      <translation>Zuerst ein Teil und einen Scan auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part first, and the scan where the document holds several.</source>
+      <translation>Zuerst ein Teil auswählen, und den Scan, wo das Dokument mehrere hat.</translation>
+    </message>
+    <message>
+      <source>Select one part first.</source>
+      <translation>Zuerst ein Teil auswählen.</translation>
+    </message>
+    <message>
+      <source>Select one part, or edges of one, first.</source>
+      <translation>Zuerst ein Teil oder Kanten eines Teils auswählen.</translation>
+    </message>
+    <message>
+      <source>Select seams first: Find weld seams makes them.</source>
+      <translation>Zuerst Nähte auswählen: Schweißnähte finden legt sie an.</translation>
+    </message>
+    <message>
       <source>Sensor sees</source>
       <translation>Sensor sieht</translation>
+    </message>
+    <message>
+      <source>Settings…</source>
+      <translation>Einstellungen …</translation>
     </message>
     <message>
       <source>Sheet</source>
@@ -682,6 +818,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Steifigkeit</translation>
     </message>
     <message>
+      <source>T</source>
+      <translation>T</translation>
+    </message>
+    <message>
       <source>Table of stations (*.csv)</source>
       <translation>Tabelle der Stationen (*.csv)</translation>
     </message>
@@ -696,6 +836,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The alignment is not sure: {reason}. Look at the scan, or undo and align it by three points.</source>
       <translation>Die Ausrichtung ist nicht sicher: {reason}. Sehen Sie sich den Scan an, oder machen Sie sie rückgängig und richten Sie ihn an drei Punkten aus.</translation>
+    </message>
+    <message>
+      <source>The check for Boolean operations goes on in the background.</source>
+      <translation>Die Prüfung für Boolesche Operationen läuft im Hintergrund weiter.</translation>
     </message>
     <message>
       <source>The colour scale ends here, on both sides</source>
@@ -758,6 +902,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Dieses Teil wird durch den Link {link} gezeigt: Wählen Sie es, wo es selbst steht, oder machen Sie eine einfache Kopie des Links.</translation>
     </message>
     <message>
+      <source>Ticked seams come into the programs, in this order: drag them. A click shows the seam.</source>
+      <translation>Angehakte Nähte kommen in die Programme, in dieser Reihenfolge: ziehen zum Umordnen. Ein Klick zeigt die Naht.</translation>
+    </message>
+    <message>
       <source>To the left the faces follow the scan more closely, to the right they stay smoother</source>
       <translation>Nach links folgen die Flächen dem Scan enger, nach rechts bleiben sie glatter</translation>
     </message>
@@ -772,6 +920,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Universal Robots program (*.script)</source>
       <translation>Universal-Robots-Programm (*.script)</translation>
+    </message>
+    <message>
+      <source>Weld seams</source>
+      <translation>Schweißnähte</translation>
+    </message>
+    <message>
+      <source>Weld seams…</source>
+      <translation>Schweißnähte …</translation>
     </message>
     <message>
       <source>What carries the colours</source>
@@ -826,6 +982,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>über einer Grenze</translation>
     </message>
     <message>
+      <source>beyond: {names}</source>
+      <translation>außerhalb: {names}</translation>
+    </message>
+    <message>
       <source>blue</source>
       <translation>blau</translation>
     </message>
@@ -834,12 +994,56 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Quader</translation>
     </message>
     <message>
+      <source>bridged</source>
+      <translation>überbrückt</translation>
+    </message>
+    <message>
+      <source>butt</source>
+      <translation>Stumpf</translation>
+    </message>
+    <message>
+      <source>carried</source>
+      <translation>mitgeführt</translation>
+    </message>
+    <message>
       <source>clutter</source>
       <translation>Fremdes</translation>
     </message>
     <message>
+      <source>corner</source>
+      <translation>Ecke</translation>
+    </message>
+    <message>
+      <source>edge</source>
+      <translation>Kante</translation>
+    </message>
+    <message>
+      <source>from</source>
+      <translation>aus</translation>
+    </message>
+    <message>
+      <source>gap</source>
+      <translation>Spalt</translation>
+    </message>
+    <message>
       <source>in {direction}</source>
       <translation>in {direction}</translation>
+    </message>
+    <message>
+      <source>joint</source>
+      <translation>Stoß</translation>
+    </message>
+    <message>
+      <source>lap</source>
+      <translation>Überlapp</translation>
+    </message>
+    <message>
+      <source>lateral</source>
+      <translation>seitlich</translation>
+    </message>
+    <message>
+      <source>longitudinal</source>
+      <translation>längs</translation>
     </message>
     <message>
       <source>matched</source>
@@ -848,6 +1052,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>mean</source>
       <translation>Mittel</translation>
+    </message>
+    <message>
+      <source>mm</source>
+      <translation>mm</translation>
     </message>
     <message>
       <source>near the part</source>
@@ -862,6 +1070,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>dort kein Scan</translation>
     </message>
     <message>
+      <source>nominal</source>
+      <translation>Soll</translation>
+    </message>
+    <message>
+      <source>normal</source>
+      <translation>Höhe</translation>
+    </message>
+    <message>
       <source>normals</source>
       <translation>Normalen</translation>
     </message>
@@ -870,16 +1086,44 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>nichts zu vergleichen</translation>
     </message>
     <message>
+      <source>opening</source>
+      <translation>Öffnung</translation>
+    </message>
+    <message>
+      <source>pass or fail</source>
+      <translation>gut oder schlecht</translation>
+    </message>
+    <message>
       <source>pick faces in the 3D view</source>
       <translation>Flächen in der 3D-Ansicht wählen</translation>
+    </message>
+    <message>
+      <source>pipe</source>
+      <translation>Rohr</translation>
     </message>
     <message>
       <source>red</source>
       <translation>rot</translation>
     </message>
     <message>
+      <source>rotation</source>
+      <translation>Drehung</translation>
+    </message>
+    <message>
+      <source>scan</source>
+      <translation>Scan</translation>
+    </message>
+    <message>
+      <source>seen</source>
+      <translation>gesehen</translation>
+    </message>
+    <message>
       <source>single points</source>
       <translation>einzelne Punkte</translation>
+    </message>
+    <message>
+      <source>smooth</source>
+      <translation>stufenlos</translation>
     </message>
     <message>
       <source>table</source>
@@ -898,6 +1142,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>ausgedünnt</translation>
     </message>
     <message>
+      <source>verdict</source>
+      <translation>Urteil</translation>
+    </message>
+    <message>
       <source>within all limits</source>
       <translation>in allen Grenzen</translation>
     </message>
@@ -906,12 +1154,20 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>gelb</translation>
     </message>
     <message>
+      <source>{count} lone points left out</source>
+      <translation>{count} einzelne Punkte ausgelassen</translation>
+    </message>
+    <message>
       <source>{count} points. Choose what shall be done.</source>
       <translation>{count} Punkte. Wählen Sie, was geschehen soll.</translation>
     </message>
     <message>
       <source>{count} points: mean {mean} mm, 95 % below {p95} mm, largest {max} mm, signed mean {signed} mm</source>
       <translation>{count} Punkte: Mittel {mean} mm, 95 % unter {p95} mm, größte {max} mm, Mittel mit Vorzeichen {signed} mm</translation>
+    </message>
+    <message>
+      <source>{count} steps</source>
+      <translation>{count} Stufen</translation>
     </message>
     <message>
       <source>{names} cannot be computed on {part} and still refer to {source}.</source>
@@ -944,6 +1200,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{unit}: it is {size} mm across</source>
       <translation>{unit}: er misst {size} mm</translation>
+    </message>
+    <message>
+      <source>±</source>
+      <translation>±</translation>
     </message>
   </context>
   <context>
@@ -1052,6 +1312,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     </message>
   </context>
   <context>
+    <name>FFDS_ExportReport</name>
+    <message>
+      <source>Export report…</source>
+      <translation>Bericht exportieren …</translation>
+    </message>
+    <message>
+      <source>Write the report on the selected as-built part: one HTML page with the part to turn, or a PDF</source>
+      <translation>Den Bericht über das gewählte Ist-Teil schreiben: eine HTML-Seite mit dem Teil zum Drehen, oder ein PDF</translation>
+    </message>
+    <message>
+      <source>Writes the verdict, pictures of the deviation, the table of the faces, the certificate and the settings of the selected as-built part. The page needs no network and holds the part to turn in the browser.</source>
+      <translation>Schreibt das Urteil, Bilder der Abweichung, die Tabelle der Flächen, das Zertifikat und die Einstellungen des gewählten Ist-Teils. Die Seite braucht kein Netz und enthält das Teil zum Drehen im Browser.</translation>
+    </message>
+  </context>
+  <context>
     <name>FFDS_FindSeams</name>
     <message>
       <source>Find weld seams…</source>
@@ -1064,6 +1339,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Weld seams along the selected edges, or wherever the parts of the selected object lie on each other</source>
       <translation>Schweißnähte entlang der gewählten Kanten oder überall, wo die Teile des gewählten Objekts aufeinanderliegen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_FirstSteps</name>
+    <message>
+      <source>A page that walks through the example: from the part and its scan to the as-built model</source>
+      <translation>Eine Seite, die durch das Beispiel führt: vom Teil und seinem Scan zum Ist-Modell</translation>
+    </message>
+    <message>
+      <source>First steps</source>
+      <translation>Erste Schritte</translation>
+    </message>
+    <message>
+      <source>Walks through the example in six steps, from the part and its scan to the as-built model and its deviation. Each step has a button that does it.</source>
+      <translation>Führt in sechs Schritten durch das Beispiel, vom Teil und seinem Scan zum Ist-Modell und seiner Abweichung. Jeder Schritt hat einen Knopf, der ihn tut.</translation>
     </message>
   </context>
   <context>
@@ -1169,6 +1459,21 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Show control lattice</source>
       <translation>Kontrollgitter zeigen</translation>
+    </message>
+  </context>
+  <context>
+    <name>FFDS_ShowResult</name>
+    <message>
+      <source>Says in a sentence how well the selected as-built part fits its scan, with a table of its faces: before, after, band, what each rests on. A click on a row shows the face.</source>
+      <translation>Sagt in einem Satz, wie gut das gewählte Ist-Teil zu seinem Scan passt, mit einer Tabelle seiner Flächen: vorher, nachher, Band, worauf jede beruht. Ein Klick auf eine Zeile zeigt die Fläche.</translation>
+    </message>
+    <message>
+      <source>Show result</source>
+      <translation>Ergebnis zeigen</translation>
+    </message>
+    <message>
+      <source>The verdict on the selected as-built part, face by face, with what to look at</source>
+      <translation>Das Urteil über das gewählte Ist-Teil, Fläche für Fläche, und worauf zu achten ist</translation>
     </message>
   </context>
   <context>
@@ -1279,14 +1584,6 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   </context>
   <context>
     <name>Sentence</name>
-    <message>
-      <source>	W = {0} deg,	P = {1} deg,	R = {2} deg</source>
-      <translation>	W = {0} deg,	P = {1} deg,	R = {2} deg</translation>
-    </message>
-    <message>
-      <source>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</source>
-      <translation>	X = {0}  mm,	Y = {1}  mm,	Z = {2}  mm,</translation>
-    </message>
     <message>
       <source> (its {0} rows are not finite numbers)</source>
       <translation> (seine {0} Zeilen sind keine endlichen Zahlen)</translation>
@@ -1444,6 +1741,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Face{0} würde an Edge{1} abreißen, wo der Nachbar stehen bleibt.</translation>
     </message>
     <message>
+      <source>Farther from the scan than its noise explains: {0}. Look at the deviation.</source>
+      <translation>Weiter vom Scan entfernt, als dessen Rauschen erklärt: {0}. Die Abweichung ansehen.</translation>
+    </message>
+    <message>
       <source>Finding and measuring the seams</source>
       <translation>Die Nähte werden gesucht und gemessen</translation>
     </message>
@@ -1500,6 +1801,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Kein Teil liegt auf höchstens {0} mm an einem anderen{1}.</translation>
     </message>
     <message>
+      <source>No point of the scan lies on the as-built part.</source>
+      <translation>Kein Punkt des Scans liegt auf dem Ist-Teil.</translation>
+    </message>
+    <message>
       <source>No pose of the path is near the nominal model: is the path in mm, and in the model's frame?</source>
       <translation>Keine Lage der Bahn ist nahe am Nennmodell: Ist die Bahn in mm und im Koordinatensystem des Modells?</translation>
     </message>
@@ -1534,6 +1839,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Noise, correlation, holes, edge band and pose error of a scan cannot be negative.</source>
       <translation>Rauschen, Korrelation, Löcher, Randstreifen und Lagefehler eines Scans können nicht negativ sein.</translation>
+    </message>
+    <message>
+      <source>Not seen by the scan, and carried along by what is: {0}.</source>
+      <translation>Vom Scan nicht gesehen und von dem mitgeführt, was er sieht: {0}.</translation>
     </message>
     <message>
       <source>Nothing refers to {0}: there is nothing to re-point.</source>
@@ -1602,6 +1911,18 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The approach must lie between 0 and 2000 mm, not {0}.</source>
       <translation>Der Anfahrweg muss zwischen 0 und 2000 mm liegen, nicht bei {0}.</translation>
+    </message>
+    <message>
+      <source>The as-built part fits the scan within its noise: {0} mm from it on average, {1} mm before.</source>
+      <translation>Das Ist-Teil passt im Rahmen des Rauschens zum Scan: im Mittel {0} mm entfernt, vorher {1} mm.</translation>
+    </message>
+    <message>
+      <source>The as-built part lies {0} mm from the scan on average, {1} mm before: that is more than noise explains.</source>
+      <translation>Das Ist-Teil liegt im Mittel {0} mm vom Scan entfernt, vorher {1} mm: Das ist mehr, als das Rauschen erklärt.</translation>
+    </message>
+    <message>
+      <source>The check for Boolean operations finds {0} errors: cutting or joining this part may fail.</source>
+      <translation>Die Prüfung für Boolesche Operationen findet {0} Fehler: Schneiden oder Verbinden dieses Teils kann scheitern.</translation>
     </message>
     <message>
       <source>The check for Boolean operations reports {0} errors, {1} before.</source>
@@ -1848,6 +2169,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Bericht {0} ist kein JSON: Nennen Sie die Datei, die register mit --report geschrieben hat.</translation>
     </message>
     <message>
+      <source>The report {0} is of an unknown format: use .html or .pdf.</source>
+      <translation>Der Bericht {0} hat ein unbekanntes Format: .html oder .pdf verwenden.</translation>
+    </message>
+    <message>
       <source>The scan and the model do not overlap, the nearest scan point is {0} mm away: align the scan with the model first.</source>
       <translation>Scan und Modell überlappen sich nicht, der nächste Scanpunkt ist {0} mm entfernt: Richten Sie den Scan zuerst am Modell aus.</translation>
     </message>
@@ -1898,6 +2223,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan points near {0} do not form its surface: only {1} of them agree on one; leave the face out, or check the alignment of the scan.</source>
       <translation>Die Scanpunkte nahe {0} bilden ihre Fläche nicht ab: Nur {1} davon passen zu einer; lassen Sie die Fläche aus, oder prüfen Sie die Ausrichtung des Scans.</translation>
+    </message>
+    <message>
+      <source>The scan shows less than half of {0}: scan more of it.</source>
+      <translation>Der Scan zeigt weniger als die Hälfte von {0}: mehr davon scannen.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
@@ -2094,6 +2423,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The shape's BREP text is damaged: its sections are not the expected ones.</source>
       <translation>Der BREP-Text der Form ist beschädigt: Seine Abschnitte sind nicht die erwarteten.</translation>
+    </message>
+    <message>
+      <source>The side {0} is no direction: give X,Y,Z, from the part to the viewer.</source>
+      <translation>Die Seite {0} ist keine Richtung: X,Y,Z vom Teil zum Betrachter angeben.</translation>
     </message>
     <message>
       <source>The spacing of a simulated scan must be positive, not {0} mm.</source>
@@ -2308,8 +2641,8 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>{0} lässt sich nicht mit sich selbst vergleichen: Wählen Sie das Nennteil, oder keines.</translation>
     </message>
     <message>
-      <source>{0} cannot be computed on {1}: nothing was re-pointed.</source>
-      <translation>{0} lässt sich auf {1} nicht berechnen: Nichts wurde umgehängt.</translation>
+      <source>{0} cannot be computed on {1}, and nothing was re-pointed: {2}.</source>
+      <translation>{0} lässt sich auf {1} nicht berechnen, und nichts wurde umgehängt: {2}.</translation>
     </message>
     <message>
       <source>{0} cannot be deformed and frozen at once: take it out of one of the two lists.</source>
@@ -2362,6 +2695,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} has no object with faces.</source>
       <translation>{0} hat kein Objekt mit Flächen.</translation>
+    </message>
+    <message>
+      <source>{0} has no seam {1}: its panel lists those it has.</source>
+      <translation>{0} hat keine Naht {1}: Ihr Fenster listet die vorhandenen auf.</translation>
     </message>
     <message>
       <source>{0} has no shape: select a part or its faces.</source>
@@ -2479,8 +2816,48 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
   <context>
     <name>Workbench</name>
     <message>
+      <source>Deform</source>
+      <translation>Anpassen</translation>
+    </message>
+    <message>
       <source>Deform a CAD model to a scan; its topology stays</source>
       <translation>Ein CAD-Modell an einen Scan anpassen; seine Topologie bleibt</translation>
+    </message>
+    <message>
+      <source>FFDS Deform</source>
+      <translation>FFDS Anpassen</translation>
+    </message>
+    <message>
+      <source>FFDS Inspect</source>
+      <translation>FFDS Prüfen</translation>
+    </message>
+    <message>
+      <source>FFDS Learn</source>
+      <translation>FFDS Lernen</translation>
+    </message>
+    <message>
+      <source>FFDS Scan</source>
+      <translation>FFDS Scan</translation>
+    </message>
+    <message>
+      <source>FFDS Weld</source>
+      <translation>FFDS Schweißen</translation>
+    </message>
+    <message>
+      <source>Inspect</source>
+      <translation>Prüfen</translation>
+    </message>
+    <message>
+      <source>Learn</source>
+      <translation>Lernen</translation>
+    </message>
+    <message>
+      <source>Scan</source>
+      <translation>Scan</translation>
+    </message>
+    <message>
+      <source>Weld</source>
+      <translation>Schweißen</translation>
     </message>
   </context>
 </TS>

@@ -10,6 +10,7 @@ import Part
 import pytest
 
 from ffds_workbench import RESOURCES
+from ffds_workbench.cli import weld
 from ffds_workbench.cli.main import main
 
 
@@ -65,3 +66,11 @@ def test_what_is_refused(job, tmp_path, capfd):
     assert main(["weld", "plate.step", "scan.xyz", "--edge", edge, "--tool", "1,2", "--out", "job"]) == 2
     assert "no tool or base" in capfd.readouterr().err
     assert not (tmp_path / "job").exists()
+
+
+def test_robots_and_dialects_are_told_apart():
+    """Without a robot the dialects are the usual three, as ever; a robot's name may have several words."""
+    usual, every = list(weld.DIALECTS), list(weld.ALL_DIALECTS)
+    assert weld.read_robot([]) == (None, usual) and weld.read_robot(["kuka", "ur"]) == (None, ["kuka", "ur"])
+    assert weld.read_robot(["KR", "8", "R1440-2"]) == ("KR 8 R1440-2", every)
+    assert weld.read_robot(["UR10e", "fanuc"]) == ("UR10e", ["fanuc"])

@@ -15,7 +15,7 @@ from pivy import coin  # before a scene graph is asked for: FreeCAD 1.1 hands no
 
 from ffds_workbench.api import registering
 from ffds_workbench.compat import qt
-from ffds_workbench.gui import running
+from ffds_workbench.gui import giving_way, running
 from ffds_workbench.gui.qt import QtCore, QtGui, QtWidgets, execute
 
 QtTest = qt("QtTest")
@@ -88,13 +88,13 @@ class Hands:
         return boxes[0].button(role)
 
     def ok(self) -> None:
-        """Press OK and wait until the panel has closed."""
+        """Press OK and wait until the panel has closed, or given its place to the result."""
         self.click(self.button(QtWidgets.QDialogButtonBox.Ok))
-        self.until(lambda: not Gui.Control.activeDialog())
+        self.until(lambda: not Gui.Control.activeDialog() or giving_way.is_open())
         self.wait(300)
 
     def choose(self, *texts: str) -> None:
-        """Click through the menus: ``choose("FFDS", "Import scan…")``."""
+        """Click through the menus: ``choose("FFDS", "Scan", "Import scan…")``."""
         bar = Gui.getMainWindow().menuBar()
         for text in texts:
             found = [item for item in bar.actions() if item.text().replace("&", "") == text]

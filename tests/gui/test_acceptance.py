@@ -41,7 +41,7 @@ def open_part_and_scan(hands, part, scan):
     hands.press(QtCore.Qt.Key_O)
     hands.until(lambda: FreeCAD.ActiveDocument is not None and len(FreeCAD.ActiveDocument.Objects) == 1, 20)
     hands.name_file(scan)
-    hands.choose("FFDS", "Import scan…")
+    hands.choose("FFDS", "Scan", "Import scan…")
     document = FreeCAD.ActiveDocument
     hands.until(lambda: len(document.Objects) == 2, 20)
     hands.wait(300)
@@ -76,7 +76,7 @@ def test_a_whole_session(hands, files):
     hands.wait(500)
     hands.pick((20, 12, 5.0))
     assert Gui.Selection.getSelectionEx()[0].SubElementNames == ("Face6",)
-    hands.choose("FFDS", "Deform faces to scan…")
+    hands.choose("FFDS", "Deform", "Deform faces to scan…")
     hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
     hands.wait(800)
     exact, drawn = hands.says("FfdsFigures"), hands.drawn()
@@ -119,6 +119,38 @@ def test_a_whole_session(hands, files):
     cancel_in_mid_work(hands, document, item)
 
 
+def test_the_card_by_mouse_alone(hands, tmp_path):
+    """A face is picked through the cloud that lies on it, deformed, judged, looked at and undone."""
+    hands.choose("FFDS", "Learn", "Load the example")
+    document = FreeCAD.ActiveDocument
+    hands.at_rest()
+    hands.pick((25.0, 0.0, 20.0))  # on the upright face, whose scan takes the click
+    assert [item.Name for item in Gui.Selection.getSelection()] == ["Scan"]
+    hands.choose("FFDS", "Deform", "Deform faces to scan…")
+    assert hands.says("FfdsPart") == "<b>Bracket</b> Face9"
+    hands.until(lambda: "after" in hands.says("FfdsFigures"), 20)
+    hands.ok()
+    hands.until(lambda: hands.says("FfdsVerdict"), 5)
+    assert "fits the scan within its noise" in hands.says("FfdsVerdict") and "Touched" not in document.AsBuilt.State
+    hands.screenshot("result")
+    table = hands.find("FfdsFaces", QtWidgets.QTableWidget)
+    hands.click(table.viewport(), table.visualItemRect(table.item(0, 0)).center())
+    assert [entry.SubElementNames for entry in Gui.Selection.getSelectionEx()] == [("Face9",)]
+    report = tmp_path / "report.html"
+    hands.name_file(report)
+    hands.click(hands.find("FFDS_ExportReport_Way"))
+    hands.until(report.exists, 20)
+    assert "fits the scan within its noise" in report.read_text("utf-8")
+    hands.choose("FFDS", "Inspect", "Show deviation")
+    hands.until(lambda: hands.says("FfdsCursor"), 20)
+    hands.pick((25.0, 0.0, 20.0))
+    assert "mm" in hands.says("FfdsCursor") and not Gui.Selection.getSelection()
+    assert "lone points left out" in hands.says("FfdsFigures")
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
+    hands.press(QtCore.Qt.Key_Z)
+    assert [item.Name for item in document.Objects] == ["Bracket", "Scan"] and document.Bracket.Visibility
+
+
 def replace_the_scan(hands, document, path) -> None:
     in_tree(hands, "first")
     hands.name_file(path)
@@ -127,7 +159,7 @@ def replace_the_scan(hands, document, path) -> None:
         hands.click(next(button for button in box.buttons() if button.text().replace("&", "") == "Replace"))
 
     hands.answer(replace, QtWidgets.QMessageBox)
-    hands.choose("FFDS", "Import scan…")
+    hands.choose("FFDS", "Scan", "Import scan…")
     hands.until(lambda: document.Objects[1].Label == "second", 30)
     hands.wait(300)
 

@@ -7,7 +7,7 @@ import FreeCADGui as Gui
 import numpy as np
 import pytest
 
-from ffds_workbench.gui.commands.align_by_points import AlignByPoints
+from ffds_workbench.gui.commands.scan.align_by_points import AlignByPoints
 from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.objects.scans import scan_points
 

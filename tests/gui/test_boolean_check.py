@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 import pytest
 
 from ffds_workbench.api import registering
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
 from ffds_workbench.objects.jobs import registration_job
 from ffds_workbench.report import boolean_check
 

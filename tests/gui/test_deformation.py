@@ -17,17 +17,18 @@ import pytest
 
 from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands import COMMANDS
-from ffds_workbench.gui.commands.align_by_points import AlignByPoints
-from ffds_workbench.gui.commands.align_scan import AlignScan
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
-from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
-from ffds_workbench.gui.commands.export_as_built import ExportAsBuilt
-from ffds_workbench.gui.commands.import_scan import ImportScan
-from ffds_workbench.gui.commands.load_example import LoadExample
-from ffds_workbench.gui.commands.show_deviation import ShowDeviation
-from ffds_workbench.gui.commands.show_lattice import ShowLattice
-from ffds_workbench.gui.commands.simulate_scan import SimulateScan
-from ffds_workbench.gui.qt import QtCore, QtWidgets
+from ffds_workbench.gui.commands.scan.align_by_points import AlignByPoints
+from ffds_workbench.gui.commands.scan.align_scan import AlignScan
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.deform.export_as_built import ExportAsBuilt
+from ffds_workbench.gui.commands.scan.import_scan import ImportScan
+from ffds_workbench.gui.commands.learn.load_example import LoadExample
+from ffds_workbench.gui.commands.inspect.show_deviation import ShowDeviation
+from ffds_workbench.gui.commands.deform.show_lattice import ShowLattice
+from ffds_workbench.gui.commands.scan.simulate_scan import SimulateScan
+from ffds_workbench.gui.qt import QtCore, QtGui, QtWidgets
+from ffds_workbench.objects import scans
 from ffds_workbench.objects.scans import scan_points
 
 QtTest = qt("QtTest")
@@ -204,6 +205,33 @@ def test_the_deviation_map_comes_and_goes(hands, plate_document):
     hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
     hands.wait(300)
     assert hands.nodes() == nodes and names(plate_document) == before
+
+
+def test_points_inside_the_material_are_seen_and_nothing_lights_up_in_the_deviation_map(hands, tmp_path):
+    document = FreeCAD.newDocument("Inside")
+    part = document.addObject("Part::Box", "Box")
+    part.Length, part.Width, part.Height = 60, 40, 20
+    x, y = np.random.default_rng(0).uniform((5, 5), (55, 35), (4000, 2)).T
+    document.recompute()
+    scans.add_scan(document, np.stack([x, y, np.full(4000, 19.0)], axis=1), "Inside")  # 1 mm below the upper side
+    view = Gui.ActiveDocument.ActiveView
+    view.viewTop()
+    view.fitAll()
+    Gui.Selection.addSelection(part)
+    hands.command(ShowDeviation)
+    hands.until(lambda: hands.says("FfdsCursor"), 20)
+    hands.pick((30, 20, 20))
+    assert not Gui.Selection.getSelection() and not Gui.Selection.getPreselection().ObjectName
+    view.saveImage(str(tmp_path / "seen.png"), 300, 200, "White")
+    image = QtGui.QImage(str(tmp_path / "seen.png"))
+    colours = [image.pixelColor(column, row) for column in range(60, 240, 3) for row in range(60, 140, 3)]
+    blue = [colour for colour in colours if colour.blue() - colour.red() > 40]  # the colour of -1 mm
+    assert len(blue) > len(colours) / 10
+    box = hands.find("FfdsSteps", QtWidgets.QComboBox)
+    box.setCurrentIndex(box.count() - 1)  # pass or fail: a tolerance is needed, and nothing is within it
+    assert hands.find("FfdsTolerance").value() > 0 and "0.0\u00a0% within" in hands.says("FfdsFigures")
+    hands.click(hands.button(QtWidgets.QDialogButtonBox.Close))
+    hands.wait(200)
 
 
 @pytest.mark.parametrize(("command", "shown"), [(DeformFaces, "FfdsFigures"), (ShowDeviation, "FfdsFigures"),

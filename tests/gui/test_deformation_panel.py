@@ -10,9 +10,9 @@ import pytest
 
 from ffds_workbench.compat import qt
 from ffds_workbench.gui.commands import COMMANDS
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
-from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
-from ffds_workbench.gui.commands.load_example import LoadExample
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.learn.load_example import LoadExample
 from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects import scans
 
@@ -76,13 +76,27 @@ def test_the_side_that_the_scan_does_not_show_is_warned_of_in_the_preview(hands,
     hands.command(DeformFaces)
     hands.until(lambda: "The scan shows Face6" in hands.says("FfdsMessageLabel"))
     assert not hands.says("FfdsFigures")
-    assert hands.says("FfdsOtherSide") == "Take Face6 instead"
+    assert hands.says("FfdsOtherSide") == "Take Face6 instead" and hands.drawn() != b"[]"  # both sides are marked
     hands.screenshot("other_side")
     hands.click(hands.find("FfdsOtherSide"))
     previewed(hands)
     assert hands.says("FfdsPart") == "<b>Sheet</b> Face6" and not hands.says("FfdsOtherSide")
     hands.ok()
     assert sheet.AsBuilt.Faces[0][1] == ("Face6",)
+
+
+def test_a_box_picks_the_side_that_the_scan_shows(hands, sheet):
+    Gui.ActiveDocument.ActiveView.viewIsometric()
+    Gui.ActiveDocument.ActiveView.fitAll()
+    hands.command(DeformFaces)
+    hands.click(hands.find("FfdsPickBox"))
+    viewport = Gui.ActiveDocument.ActiveView.graphicsView().viewport()
+    ends = QtCore.QPoint(5, 5), QtCore.QPoint(viewport.width() - 5, viewport.height() - 5)
+    QtTest.QTest.mousePress(viewport, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, ends[0], 10)
+    QtTest.QTest.mouseMove(viewport, ends[1])
+    QtTest.QTest.mouseRelease(viewport, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier, ends[1], 10)
+    hands.wait(200)
+    assert hands.says("FfdsPart") == "<b>Sheet</b> Face6"
 
 
 def test_figures_and_colours_of_another_scan_go_at_once(hands, sheet):
@@ -120,6 +134,7 @@ def test_enter_ends_the_editing_of_a_number_and_esc_closes_the_panel_from_anywhe
 
 def test_the_result_is_selected_its_commands_are_live_and_nothing_is_left_to_recompute(hands, plate_document):
     made = deform(hands, plate_document)
+    hands.until(lambda: hands.says("FfdsVerdict"), 5)
     assert Gui.Selection.getSelection() == [made]
     live = {command.NAME for command in COMMANDS if command().IsActive()}
     assert {"FFDS_ShowDeviation", "FFDS_ShowLattice", "FFDS_ExportAsBuilt", "FFDS_FindSeams"} <= live

@@ -12,8 +12,8 @@ import pytest
 
 from ffds_workbench import ROOT
 from ffds_workbench.gui.commands import COMMANDS
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
-from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.preferences import Preferences, preferences
 from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.gui.translating import TRANSLATIONS, said
@@ -68,9 +68,8 @@ def test_the_window_speaks_german(hands, plate_document, german):
     hands.until(lambda: "Abweichung" in hands.says("FfdsFigures"), 20)
     assert hands.find("FfdsWhole").text() == "Ganzes Teil"
     hands.screenshot("german")
-    hands.click(hands.button(QtWidgets.QDialogButtonBox.Ok))
-    hands.until(lambda: "Modell wird neu" in hands.says("FfdsDoing") or not Gui.Control.activeDialog(), 20)
-    hands.until(lambda: not Gui.Control.activeDialog(), 20)
+    hands.ok()
+    hands.until(lambda: "passt im Rahmen des Rauschens" in hands.says("FfdsVerdict"), 20)
 
 
 def test_a_refusal_from_below_is_said_in_german(hands, plate_document, german):

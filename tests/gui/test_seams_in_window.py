@@ -9,9 +9,9 @@ import Part
 import pytest
 
 from ffds_workbench.compat import qt
-from ffds_workbench.gui.commands.add_trajectory import AddTrajectory
-from ffds_workbench.gui.commands.export_program import ExportProgram
-from ffds_workbench.gui.commands.find_seams import FindSeams
+from ffds_workbench.gui.commands.weld.add_trajectory import AddTrajectory
+from ffds_workbench.gui.commands.weld.export_program import ExportProgram
+from ffds_workbench.gui.commands.weld.find_seams import FindSeams
 from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.gui.view3d.seams_drawing import FAIL, PASS, verdict_colours
 from ffds_workbench.objects import actions
@@ -170,7 +170,34 @@ def test_seams_are_not_dragged_by_a_double_click(hands, block):
     Gui.ActiveDocument.setEdit(seams, 1)
     assert Gui.ActiveDocument.getInEdit() is None
     assert seams.ViewObject.Proxy.doubleClicked(seams.ViewObject) is True
-    assert Gui.ActiveDocument.getInEdit() is None
+    assert Gui.ActiveDocument.getInEdit() is None and Gui.Control.activeDialog()  # its own panel
+
+
+def test_the_panel_of_seams_lights_them_and_chooses_what_is_programmed(hands, block, monkeypatch, tmp_path):
+    seams, edges = block
+    seams.ViewObject.Proxy.doubleClicked(seams.ViewObject)
+    hands.wait(300)
+    rows = hands.find("FfdsSeams", QtWidgets.QTreeWidget)
+    hands.screenshot("seams_panel")
+    shown = [(rows.topLevelItem(k).text(0), rows.topLevelItem(k).checkState(0) == QtCore.Qt.Checked) for k in (0, 1)]
+    assert shown == [(edges[0], True), (edges[1], False)]  # the one that fails is off to begin with
+    assert "lateral, normal" in rows.topLevelItem(1).text(4)
+    hands.click(rows.viewport(), rows.visualItemRect(rows.topLevelItem(1)).center())
+    assert "18.0" in hands.drawn().decode()  # its height, to which the upper side sank
+    rows.insertTopLevelItem(0, rows.takeTopLevelItem(1))  # as a drag does
+    rows.topLevelItem(0).setCheckState(0, QtCore.Qt.Checked)
+    hands.ok()
+    assert seams.Programmed == [edges[1], edges[0]] and seams.KeepFailing and "Touched" not in seams.State
+    target = tmp_path / "weld.src"
+    monkeypatch.setattr(QtWidgets.QFileDialog, "getSaveFileName", lambda *_: (str(target), ""))
+    select(hands, seams)
+    hands.answer(answer("Write all the same", []))
+    hands.command(ExportProgram)
+    hands.until(target.exists)
+    text = target.read_text()
+    assert 0 < text.index(f"; {edges[1]}") < text.index(f"; {edges[0]}")
+    seams.Document.undo()
+    assert not seams.Programmed
 
 
 def test_a_cancelled_question_and_a_refusal_leave_nothing(hands, pipe):

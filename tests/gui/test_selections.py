@@ -11,10 +11,10 @@ import FreeCADGui as Gui
 import numpy as np
 import pytest
 
-from ffds_workbench.gui.commands.align_scan import AlignScan
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
-from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
-from ffds_workbench.gui.commands.show_deviation import ShowDeviation
+from ffds_workbench.gui.commands.scan.align_scan import AlignScan
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.inspect.show_deviation import ShowDeviation
 from ffds_workbench.gui.qt import QtWidgets
 from ffds_workbench.objects import scans
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from ffds_workbench.compat import qt
-from ffds_workbench.gui.commands.deform_faces import DeformFaces
-from ffds_workbench.gui.commands.deform_workpiece import DeformWorkpiece
-from ffds_workbench.gui.commands.load_example import LoadExample
-from ffds_workbench.gui.commands.show_deviation import ShowDeviation
+from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
+from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
+from ffds_workbench.gui.commands.learn.load_example import LoadExample
+from ffds_workbench.gui.commands.inspect.show_deviation import ShowDeviation
 from ffds_workbench.gui.qt import QtCore, QtWidgets
 from ffds_workbench.objects import scans
 

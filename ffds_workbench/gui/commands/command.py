@@ -9,14 +9,22 @@ import FreeCAD
 import FreeCADGui as Gui
 
 from ... import RESOURCES
+from .. import giving_way
+from ..qt import QtGui
 from ..running import telling
 from ..selection import Chosen, chosen, scans_of
+from ..translating import tr
 
 
 class Command(ABC):
-    """A command; subclasses set the names and define `active` and `run`."""
+    """A command; subclasses set the names and define `active` and `run`. ``NEEDS`` says what is missing where it is
+    grey."""
 
     NAME = MENU = TIP = HELP = KEYS = ""
+    NEEDS = "Open a document first."
+
+    def __init__(self) -> None:
+        self._why = ""
 
     def GetResources(self) -> dict[str, str]:
         """What FreeCAD shows of the command."""
@@ -25,10 +33,23 @@ class Command(ABC):
 
     def IsActive(self) -> bool:
         """Whether the command can be used now; asked often."""
-        return not Gui.Control.activeDialog() and self.active()
+        busy = Gui.Control.activeDialog() and not giving_way.is_open()
+        live = not busy and self.active()
+        self._explain("" if live else tr("Finish or close the open task first.") if busy else tr(self.NEEDS))
+        return live
+
+    def _explain(self, why: str) -> None:
+        """Say in the tooltip why the command is grey, "" where it is not."""
+        if why == self._why:
+            return
+        for action in Gui.getMainWindow().findChildren(QtGui.QAction, self.NAME):
+            shown = action.toolTip()
+            action.setToolTip(shown.removesuffix(_grey(self._why)) + _grey(why))
+        self._why = why
 
     def Activated(self, index: int = 0) -> None:
         """The user chose the command."""
+        giving_way.close()
         with telling():
             self.run()
 
@@ -39,6 +60,10 @@ class Command(ABC):
     @abstractmethod
     def run(self) -> None:
         """Do it."""
+
+
+def _grey(why: str) -> str:
+    return f"<p><b>{why}</b></p>" if why else ""
 
 
 def one_part(selected: Chosen) -> Any:

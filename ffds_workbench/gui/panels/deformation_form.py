@@ -45,6 +45,9 @@ class DeformationForm(Form):
 
     def _make(self, scans: Sequence[Any]) -> None:
         self._part = wrapped("FfdsPart")
+        self.by_box = named(QtWidgets.QToolButton(), "FfdsPickBox",
+                            tr("Draw a box in the 3D view: the faces in it that the scan shows are picked"))
+        self.by_box.setText(tr("By box"))
         self._scan = choice("FfdsScan", [(scan.Label, scan.Name) for scan in scans],
                             tr("The scan; picking a point cloud in the view or the tree chooses it as well"))
         self._whole = named(QtWidgets.QCheckBox(tr("Whole part")), "FfdsWhole",
@@ -93,7 +96,7 @@ class DeformationForm(Form):
         column = QtWidgets.QVBoxLayout(self)
         basic = QtWidgets.QFormLayout()
         basic.addRow(tr("Deform"), self._part)
-        basic.addRow("", self._whole)
+        basic.addRow(self.by_box, self._whole)
         basic.addRow(tr("Scan"), self._scan)
         basic.addRow(tr("Control points"), self._automatic)
         for name, (box, slider) in zip("uv", self._sizes, strict=True):
@@ -131,6 +134,7 @@ class DeformationForm(Form):
         robust = self._method.currentData() == "robust"
         together = self.whole and robust
         self._automatic.setEnabled(not together)
+        self.by_box.setEnabled(not self.whole)
         for widget in (widget for pair in self._sizes for widget in pair):
             widget.setEnabled(not together and not self._automatic.isChecked())
         self._isometry.setEnabled(together)

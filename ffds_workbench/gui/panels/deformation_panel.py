@@ -2,6 +2,7 @@
 """The task panel of the deformation: what is picked and set on one side, the live preview on the other."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import FreeCADGui as Gui
@@ -13,9 +14,9 @@ from ...objects.as_built import is_as_built, request_of
 from ...objects.jobs.registration_job import Job, make_job
 from ...objects.sources import Source, standing_for
 from ...registration.request import RegistrationRequest
-from .. import running
+from .. import giving_way, running
 from ..preferences import preferences
-from ..preview.drawing import PreviewDrawing
+from ..preview.drawing import PICKED, SHOWN, WRONG, PreviewDrawing, marks
 from ..preview.patches import Patch, figures
 from ..preview.runner import PreviewRunner
 from ..qt import QtCore, QtWidgets, number_of
@@ -23,12 +24,19 @@ from ..selection import Chosen, chosen, scans_of
 from ..translating import said, tr
 from ..view3d.colours import good_limit
 from ..view3d.overlay import Overlay
+from ..view3d.rubber_band import RubberBand
 from .closing import Closing
 from .deformation_form import DeformationForm
+from .picking import Picking, faces_in_box, one_shown
+from .result_panel import open_page
+
+_SCAN_TRANSPARENCY = 0.7
+"""Of the scans while the panel is open."""
 
 
 def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
     """Open the panel on the selection, on the whole part, or on the as-built part ``item`` to change it."""
+    giving_way.close()
     if Gui.Control.activeDialog():
         running.tell(tr("Another task is open: finish or close it first."))
         return
@@ -41,22 +49,24 @@ class DeformationPanel:
 
     def __init__(self, document: Any, item: Any, whole: bool) -> None:
         self._document, self._item = document, item
-        self._source: Any = None
-        self._faces: tuple[str, ...] = ()
-        self._hint, self._adding = "", False
+        self._adding = False
+        self._band: RubberBand | None = None
         self._read: tuple[tuple[Any, Any], Source, Any] | None = None
         self._drawn_of: tuple[Any, Any] | None = None
         self._worker: running.Worker | None = None
         self._wished = preferences()
         self.form = DeformationForm(scans_of(document), item is not None)
+        self._picking = Picking(item, self.form)
         self._take(item, chosen(), whole)
         Gui.Selection.clearSelection()
         self._overlay = Overlay(document.Name)
         self._overlay.pick_through(scans_of(document))
+        self._overlay.fade(scans_of(document), _SCAN_TRANSPARENCY)
         self._drawing = PreviewDrawing(self._overlay)
         self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
         self.form.destroyed.connect(self._let_go)
         self.form.changed.connect(self._preview)
+        self.form.by_box.clicked.connect(self._draw_box)
         Gui.Selection.addObserver(self)
         self._watching = True
         self._closing = Closing(document.Name, self._stop, self._close)
@@ -65,63 +75,15 @@ class DeformationPanel:
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
         """Start from an as-built part, or from what is selected."""
         if item is not None:
-            self._source = item.Source
             request = request_of(item)
-            self._faces = request.faces or ()
+            self._picking.faces = request.faces or ()
             self.form.take(request, item.Scan)
         else:
-            self._pick(selected)
+            self._picking.take(selected)
         if whole:
-            self._faces = ()
-        self.form.set_whole(whole or item is not None and not self._faces)
-        self._show_picked()
-
-    def _pick(self, selected: Chosen) -> None:
-        """Take over the part, the faces and the scan of a selection; what cannot be used is said."""
-        self._hint = ""
-        if selected.scans:
-            self.form.set_scan(selected.scans[-1])
-        try:
-            if selected.refusal:
-                raise InputError(selected.refusal)
-            picked: dict[Any, list[str]] = {}
-            for part in selected.parts:
-                picked.setdefault(self._meant(part), []).extend(selected.faces[part.Name])
-            if len(picked) > 1:
-                raise InputError(tr("Faces of two parts are selected: choose those of one."))
-            for part, faces in picked.items():
-                self._pick_faces(part, tuple(dict.fromkeys(faces)))
-            if selected.others:
-                raise InputError(tr("{name} is neither a face nor a point cloud: pick faces of a part, and a scan."
-                                    ).format(name=selected.others[0]))
-        except InputError as refusal:
-            self._hint = said(str(refusal))
-
-    def _meant(self, part: Any) -> Any:
-        """The part to deform where ``part`` was picked: for a result its nominal one, whose faces are named alike."""
-        if not is_as_built(part) or part.Source is None:
-            return standing_for(part)
-        if part is not self._item:
-            self._hint = tr("{part} is a result: its nominal part {source} is deformed anew.").format(
-                part=part.Label, source=part.Source.Label)
-        return part.Source
-
-    def _pick_faces(self, part: Any, faces: tuple[str, ...]) -> None:
-        if self._item is not None and part is not self._source:
-            raise InputError(tr("{part} is made from {source}: pick faces of one of these two.").format(
-                part=self._item.Label, source=self._source.Label))
-        if part is not self._source:
-            self._source, self._faces = part, ()
-        if self.form.picks_frozen:
-            self.form.toggle_frozen(faces)
-        elif faces and self._adding:
-            self._faces = tuple(name for name in dict.fromkeys((*self._faces, *faces))
-                                if name not in self._faces or name not in faces)
-        elif faces:
-            self._faces = faces
-
-    def _show_picked(self) -> None:
-        self.form.show_picked(self._source.Label if self._source is not None else "", self._faces)
+            self._picking.faces = ()
+        self.form.set_whole(whole or item is not None and not self._picking.faces)
+        self._picking.show()
 
     def addSelection(self, *_: Any) -> None:
         """Something was picked in the view or in the tree: read the selection once FreeCAD is done with it."""
@@ -134,25 +96,42 @@ class DeformationPanel:
         selected = chosen()
         if not (selected.parts or selected.scans or selected.others or selected.refusal):
             return
-        self._pick(selected)
+        self._picking.take(selected, self._adding)
         Gui.Selection.clearSelection()  # what is selected would shine through the preview
-        self._show_picked()
+        self._picking.show()
         self._preview()
+
+    def _draw_box(self) -> None:
+        """The next drag in the view picks the faces in its box."""
+        if self._band is not None:
+            self._band.stop()
+        self._band = RubberBand(self._document.Name, self._boxed)
+
+    def _boxed(self, box: Any) -> None:
+        """Pick the faces in a box that the scan shows; all of them where it shows none."""
+        with running.telling():
+            part = self._picking.source or one_shown(self._document)
+            scan = self.form.scan(self._document)
+            self._picking.hint = ""
+            faces = faces_in_box(self._document.Name, box, part, scan)
+            self._picking.pick(standing_for(part), faces, False)
+            self._picking.show()
+            self._preview()
 
     def _job(self) -> Job:
         """The registration that is set now (InputError where something is missing)."""
         scan = self.form.scan(self._document)
-        if self._source is None:
+        if self._picking.source is None:
             raise InputError(tr("Pick the part in the 3D view.") if self.form.whole else
                              tr("Pick faces of the part in the 3D view."))
-        if not self.form.whole and not self._faces:
+        if not self.form.whole and not self._picking.faces:
             raise InputError(tr("Pick the faces to deform in the 3D view; hold Ctrl for more than one."))
         if scan is None:
             raise InputError(tr("The document holds no scan: import one first."))
-        request = self.form.request(self._faces)
-        if self._read is None or self._read[0] != (self._source, scan):
-            job = make_job(self._source, scan, request)
-            self._read = ((self._source, scan), job.source, job.scan)
+        request = self.form.request(self._picking.faces)
+        if self._read is None or self._read[0] != (self._picking.source, scan):
+            job = make_job(self._picking.source, scan, request)
+            self._read = ((self._picking.source, scan), job.source, job.scan)
         return Job(self._read[1], self._read[2], request)
 
     def _preview(self) -> None:
@@ -167,7 +146,7 @@ class DeformationPanel:
             if self._wished.preview:
                 self._runner.ask(job)
             else:
-                self.form.found.show_figures(None, self._hint)
+                self.form.found.show_figures(None, self._picking.hint)
         except FfdsError as refusal:
             self._runner.stop()
             self._draw_nothing(refusal)
@@ -181,21 +160,27 @@ class DeformationPanel:
             raise failure
         if not self._watching:
             return
-        self._clear(self._hint or said(str(failure)))
-        if isinstance(failure, OtherSideError):
+        other_side = isinstance(failure, OtherSideError)
+        self._clear(self._picking.hint or said(str(failure)),
+                    {failure.named: WRONG, failure.shown: SHOWN} if other_side else None)
+        if other_side:
             self.form.found.offer(failure.shown, lambda: self._take_other_side(failure))
 
-    def _clear(self, sentence: str) -> None:
-        """Draw nothing, and say why."""
-        self._overlay.show([])
+    def _clear(self, sentence: str, marked: Mapping[str, int] | None = None) -> None:
+        """Draw no preview but marked faces, and say why."""
+        faces = dict.fromkeys(self._picking.faces, PICKED) if marked is None else marked
+        if self._read is not None and self._read[0][0] is self._picking.source:
+            source = self._read[1]
+            self._overlay.show(marks(source.model.shape, faces), source.T_document_part)
+        else:
+            self._overlay.show([])
         self._overlay.cover()
         self.form.found.show_figures(None, sentence)
 
     def _take_other_side(self, refused: OtherSideError) -> None:
         """Deform the face that the scan shows instead of the one on the other side of its sheet."""
-        names = (refused.shown if name == refused.named else name for name in self._faces)
-        self._faces = tuple(dict.fromkeys(names))
-        self._show_picked()
+        self._picking.take_other_side(refused.named, refused.shown)
+        self._picking.show()
         self._preview()
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
@@ -204,15 +189,14 @@ class DeformationPanel:
         after = np.concatenate([patch.after for patch in patches])
         limit = good_limit(after)
         self._overlay.cover(*self._covered(job))
-        self._drawing.show(job.source.model.shape, patches, job.request.freeze, limit, self._wished.lattice,
-                           job.source.T_document_part)
+        self._drawing.show(job, patches, limit, self._wished.lattice)
         if job.request.faces is not None:
             self.form.show_size(patches[0].size)
-        self.form.found.show_figures(figures(patches), self._hint, after, limit)
+        self.form.found.show_figures(figures(patches), self._picking.hint, after, limit)
 
     def _covered(self, job: Job) -> list[Any]:
         """What would hide the preview: the scan, the part and, when it is being changed, the as-built part."""
-        return [item for item in (self.form.scan(self._document), self._source, job.source.item, self._item)
+        return [item for item in (self.form.scan(self._document), self._picking.source, job.source.item, self._item)
                 if item is not None]
 
     def accept(self) -> bool:
@@ -234,7 +218,7 @@ class DeformationPanel:
         self.form.set_busy(False)
         scan = running.name_of(self.form.scan(self._document))
         arguments = _arguments(job.request)
-        source = running.name_of(self._source)
+        source = running.name_of(self._picking.source)
         item, in_place = self._item, self.form.in_place
         self._close()
         with running.telling():
@@ -243,8 +227,10 @@ class DeformationPanel:
             else:
                 line = f"{'replace_in_place' if in_place else 'make_as_built'}({source}, {scan}, {arguments})"
             running.call(self._document, "Deform to scan", line)
-            made = item or (self._source if in_place else self._newest())
+            made = item or (self._picking.source if in_place else self._newest())
             Gui.Selection.addSelection(made.Document.Name, made.Name)
+            if is_as_built(made):
+                QtCore.QTimer.singleShot(0, lambda: open_page(made))
 
     def _newest(self) -> Any:
         """The as-built part that was made last."""
@@ -284,6 +270,8 @@ class DeformationPanel:
     def _stop(self) -> None:
         """Drop what is being computed."""
         self._runner.stop()
+        if self._band is not None:
+            self._band.stop()
         if self._worker is not None:
             self._worker.cancel()
 

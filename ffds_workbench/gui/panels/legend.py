@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..qt import QtCore, QtGui, QtWidgets
 from ..translating import tr
-from ..view3d.colours import NO_DATA, packed_colours
+from ..view3d.colours import NO_DATA, SMOOTH, packed_colours
 
 Array = NDArray[np.float64]
 
@@ -26,14 +26,15 @@ class Legend(QtWidgets.QWidget):
         self.setMinimumHeight(_TALL)
         self.setSizePolicy(QtWidgets.QSizePolicy.Expanding, QtWidgets.QSizePolicy.Fixed)
         self._counts = np.zeros(_BINS)
-        self._limit, self._tolerance = 1.0, 0.0
+        self._limit, self._tolerance, self._steps = 1.0, 0.0, SMOOTH
 
     def sizeHint(self) -> Any:
         """As Qt asks."""
         return QtCore.QSize(260, _TALL)
 
-    def show_deviations(self, values: Array, limit: float, tolerance: float = 0.0) -> None:
+    def show_deviations(self, values: Array, limit: float, tolerance: float = 0.0, steps: int = SMOOTH) -> None:
         """Deviations (n,) in mm; the scale ends at ±``limit``, what lies beyond is counted in the outermost bins."""
+        self._steps = steps
         self._counts = np.histogram(np.clip(values, -limit, limit), _BINS, (-limit, limit))[0].astype(float)
         self._limit, self._tolerance = limit, tolerance
         self.update()
@@ -43,7 +44,7 @@ class Legend(QtWidgets.QWidget):
         painter = QtGui.QPainter(self)
         width, height = self.width() - 2 * _MARGIN, self.height() - _BAR - 2 * _TEXT - 8
         centres = (np.arange(_BINS) + 0.5) / _BINS * 2 - 1
-        colours = packed_colours(centres * self._limit, self._limit, self._tolerance)
+        colours = packed_colours(centres * self._limit, self._limit, self._tolerance, self._steps)
         tallest = max(float(self._counts.max()), 1.0)
         for k, (count, colour) in enumerate(zip(self._counts, colours, strict=True)):
             left, right = (_MARGIN + int(round(edge * width / _BINS)) for edge in (k, k + 1))

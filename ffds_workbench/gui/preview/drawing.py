@@ -2,17 +2,27 @@
 """The preview in the 3D view: deformed faces in the colours of their deviation, the others as they are, lattices."""
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import Part
+from scipy.spatial import cKDTree
 
+from ...objects.jobs.registration_job import Job
 from ..view3d.colours import packed_colours
-from ..view3d.overlay import ColouredMesh, Overlay, lattice_nodes, lines_node, shaded_node
+from ..view3d.overlay import ColouredMesh, Overlay, lattice_nodes, lines_node, mesh_node, points_node, shaded_node
 from .patches import Patch
 
 PLAIN, FROZEN = (0.78, 0.8, 0.82), (0.38, 0.55, 0.75)
+PICKED, WRONG, SHOWN = 0xF29A2EFF, 0xC9352BFF, 0x2E9E4FFF
+"""Packed colours of faces that are picked, that the scan does not show, and that it shows instead."""
+REST = 0x2673BF66
+"""Packed colour of scan points that do not lie on a previewed face: half transparent."""
+_RESTING = 15_000
+"""Scan points of which those are drawn."""
+_BESIDE = 0.02
+"""Of the part's size: scan points nearer than this to the corners of a previewed face's cells are its own."""
 _DEFLECTION = 1 / 800
 """Of the part's size, in the drawing of faces that are not deformed."""
 
@@ -24,10 +34,11 @@ class PreviewDrawing:
         self._overlay = overlay
         self._meshes: list[ColouredMesh] = []
         self._others: tuple[Any, Any] | None = None
+        self._left: tuple[Any, tuple[str, ...], Any] | None = None
 
-    def show(self, shape: Part.Shape, patches: Sequence[Patch], frozen: Collection[str], limit: float,
-             with_lattice: bool, frame: Any) -> None:
-        """Draw a part in its own frame, ``frame`` (4, 4) taking it to the document's."""
+    def show(self, job: Job, patches: Sequence[Patch], limit: float, with_lattice: bool) -> None:
+        """Draw what a job makes of its part."""
+        shape, frozen = job.source.model.shape, job.request.freeze
         scanned = [patch for patch in patches if patch.registered]
         if [mesh.triangles is patch.triangles for mesh, patch in zip(self._meshes, scanned, strict=False)] != (
                 [True] * max(len(scanned), len(self._meshes))):
@@ -39,7 +50,18 @@ class PreviewDrawing:
         outlines = lines_node([line for patch in patches for line in patch.outline])
         adapting = [shaded_node(patch.points, patch.triangles, PLAIN) for patch in patches if not patch.registered]
         self._overlay.show([others, outlines, *adapting, *(mesh.node for mesh in self._meshes),
-                            *lattice_nodes(lattices)], frame)
+                            *lattice_nodes(lattices), *self._points_left(job, scanned)], job.source.T_document_part)
+
+    def _points_left(self, job: Job, scanned: Sequence[Patch]) -> list[Any]:
+        """The scan beside the faces that it deforms: there are more to pick."""
+        key = job.scan, tuple(patch.name for patch in scanned)
+        if self._left is None or self._left[0] is not key[0] or self._left[1] != key[1]:
+            points = every_nth_of(job.scan.points)
+            corners = np.concatenate([patch.points[np.unique(patch.triangles)] for patch in scanned])
+            far = cKDTree(corners).query(points)[0] > _BESIDE * job.source.model.shape.BoundBox.DiagonalLength
+            self._left = *key, points[far]
+        points = self._left[2]
+        return [points_node(points, np.full(len(points), REST, dtype=np.uint32), 2.0)] if len(points) else []
 
     def _rest(self, shape: Part.Shape, deformed: frozenset[str], frozen: frozenset[str]) -> Any:
         """The faces that are not deformed, and the edges that are not theirs."""
@@ -49,11 +71,31 @@ class PreviewDrawing:
         return self._others[1]
 
 
+def every_nth_of(points: Any) -> Any:
+    """Some of the points (n, 3), spread evenly over their order."""
+    return points[:: max(1, len(points) // _RESTING)]
+
+
+def marks(shape: Part.Shape, colours: Mapping[str, int]) -> list[Any]:
+    """Faces of a shape in one packed colour each, drawn over the part."""
+    nodes = []
+    for name, colour in colours.items():
+        points, triangles = shape.Faces[int(name[4:]) - 1].tessellate(_fineness(shape))
+        if triangles:
+            nodes.append(mesh_node(np.array([tuple(point) for point in points]), np.array(triangles),
+                                   np.full(len(points), colour, dtype=np.uint32)))
+    return nodes
+
+
+def _fineness(shape: Part.Shape) -> float:
+    return max(shape.BoundBox.DiagonalLength * _DEFLECTION, 1e-3)
+
+
 def _plain_faces(shape: Part.Shape, deformed: Collection[str], frozen: Collection[str]) -> Any:
     from pivy import coin
 
     group = coin.SoGroup()
-    deflection = max(shape.BoundBox.DiagonalLength * _DEFLECTION, 1e-3)
+    deflection = _fineness(shape)
     edges = []
     for number, face in enumerate(shape.Faces, 1):
         name = f"Face{number}"

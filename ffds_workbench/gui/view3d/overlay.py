@@ -25,7 +25,7 @@ class Overlay:
         # A view that was closed crashes when it is asked for its graph; the graph itself lives on while it is held.
         self._graph = Gui.getDocument(document_name).ActiveView.getSceneGraph()
         self._covered: list[tuple[Any, Any, Any]] = []
-        self._picked_through: list[tuple[Any, Any]] = []
+        self._changed: list[tuple[Any, Any]] = []
         self._root = coin.SoSeparator()
         self._root.addChild(_unpickable())
         self._frame = coin.SoMatrixTransform()
@@ -64,9 +64,28 @@ class Overlay:
     def pick_through(self, items: Sequence[Any]) -> None:
         """Let clicks through these document objects to what lies behind them: scans lie on the faces that are meant."""
         for item in items:
-            root, style = item.ViewObject.RootNode, _unpickable()
-            root.insertChild(style, 0)
-            self._picked_through.append((root, style))
+            self._prefix(item, _unpickable())
+
+    def fade(self, items: Sequence[Any], transparency: float) -> None:
+        """Draw these document objects half transparent, 0 … 1, whatever their own properties say."""
+        for item in items:
+            material = coin.SoMaterial()
+            material.transparency.setValue(transparency)
+            for name in ("ambientColor", "diffuseColor", "specularColor", "emissiveColor", "shininess"):
+                getattr(material, name).setIgnored(True)
+            material.setOverride(True)
+            self._prefix(item, material)
+
+    def plain(self) -> None:
+        """Draw and pick everything as it was again."""
+        while self._changed:
+            root, node = self._changed.pop()
+            root.removeChild(node)
+
+    def _prefix(self, item: Any, node: Any) -> None:
+        root = item.ViewObject.RootNode
+        root.insertChild(node, 0)
+        self._changed.append((root, node))
 
     def _uncover(self) -> None:
         while self._covered:
@@ -76,8 +95,7 @@ class Overlay:
     def remove(self) -> None:
         """Take everything out of the view; harmless where the view is gone already."""
         self._uncover()
-        for root, style in self._picked_through:
-            root.removeChild(style)
+        self.plain()
         if self._graph.findChild(self._root) >= 0:
             self._graph.removeChild(self._root)
 
@@ -166,6 +184,11 @@ def _faces(triangles: NDArray[np.integer]) -> Any:
 def lines_node(lines: Sequence[Array]) -> Any:
     """Polylines in the colour of edges, each (k, 3) in mm."""
     return _lines(coin.SoSeparator(), lines, (0.1, 0.1, 0.12), 1.5)
+
+
+def bright_node(line: Array) -> Any:
+    """A polyline (k, 3) in mm that is meant, in front of everything."""
+    return _lines(coin.SoAnnotation(), [line], AFTER, 6.0)
 
 
 def lattice_nodes(lattices: Sequence[Lattice]) -> list[Any]:

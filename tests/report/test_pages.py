@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The report for people of the example: one page and a PDF, opened, turned and read in a browser without a network."""
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from ffds_workbench import RESOURCES, api
+from ffds_workbench.errors import InputError
+from ffds_workbench.report.maps.lone_points import lone_points
+from ffds_workbench.report.pages.html_file import THREE
+
+LARGEST = 5_000_000
+"""Bytes of the example's page."""
+_HAND = """<script>
+window.onload = function () {
+  var canvas = document.querySelector('#view canvas'), box = canvas.getBoundingClientRect(), read = [];
+  for (var k = 1; k < 20; k++) {
+    canvas.dispatchEvent(new MouseEvent('mousemove', {clientX: box.left + k * box.width / 20,
+                                                      clientY: box.top + box.height / 2}));
+    read.push(document.getElementById('value').textContent);
+  }
+  document.body.setAttribute('data-read', read.join('|'));
+  canvas.dispatchEvent(new MouseEvent('mousedown', {clientX: 300, clientY: 300, button: 0, bubbles: true}));
+  document.dispatchEvent(new MouseEvent('mousemove', {clientX: 380, clientY: 300}));
+  document.dispatchEvent(new MouseEvent('mouseup', {}));
+};
+</script>"""
+"""A mouse that goes over the part and turns it."""
+
+
+def test_points_in_the_air_stand_alone_and_those_of_a_surface_do_not():
+    random = np.random.default_rng(0)
+    sheet = np.column_stack([random.uniform((0, 0), (80, 60), (8000, 2)), random.normal(0, 0.05, 8000)])
+    air = random.uniform((0, 0, 5), (80, 60, 40), (60, 3))
+    lone = lone_points(np.concatenate([sheet, air]))
+    assert lone[8000:].all()
+    assert lone[:8000].sum() == 0  # corners have a quarter of the neighbours, at twice the distance
+    assert not lone_points(air[:10]).any()
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    """The page and the PDF of the example's upright face."""
+    folder, example = tmp_path_factory.mktemp("pages"), RESOURCES / "examples"
+    result = api.register(api.read_model(example / "bracket.step"), api.read_scan(example / "bracket_scan.ply"),
+                          faces=["Face9"])
+    api.write_pages(result, folder / "report.html", folder / "report.pdf", sides=[(1, -1, 1)])
+    with pytest.raises(InputError, match="is no direction"):
+        api.write_pages(result, folder / "none.html", sides=[(0, 0, 0)])
+    assert not (folder / "none.html").exists()
+    return folder / "report.html"
+
+
+def test_the_page_needs_nothing_beside_it_and_says_everything(page):
+    text = page.read_text("utf-8")
+    assert len(text.encode()) < LARGEST
+    own = re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL)
+    assert not re.search(r"(src|href)=\"(?!data:)", own)
+    for said in ("fits the scan within its noise", "Face9", "order kept", "largest edge gap", "numpy", "whole part"):
+        assert (said in own) == (said != "whole part"), said
+    assert own.count("data:image/png") == 1
+
+
+def test_the_pdf_has_its_pages(page):
+    raw = page.with_suffix(".pdf").read_bytes()
+    assert raw.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", raw)) == 3
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None or not THREE.is_dir(), reason="chromium or libjs-three is missing")
+def test_the_part_turns_and_tells_its_deviation_in_a_browser(page, tmp_path):
+    probe = tmp_path / "probe.html"
+    probe.write_text(page.read_text("utf-8").replace("</body>", _HAND + "</body>"), "utf-8")
+    done = subprocess.run(
+        ["chromium", "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+         f"--user-data-dir={tmp_path / 'chromium'}", "--host-resolver-rules=MAP * ~NOTFOUND",
+         "--virtual-time-budget=3000", "--dump-dom", probe.as_uri()], capture_output=True, text=True, timeout=60)
+    found = dict(re.findall(r"data-(drawn|read|camera)=\"([^\"]*)\"", done.stdout))
+    assert int(found["drawn"]) > 1000, done.stderr
+    assert re.search(r"Face9: [+−]0\.\d{3} mm", found["read"]) and "no scan there" in found["read"]
+    assert found["camera"]  # it was turned
