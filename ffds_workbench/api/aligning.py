@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..brep import workpiece
 from ..brep.model_files import Model
 from ..errors import InputError, RefusedError
 from ..output import replacing
@@ -27,7 +26,7 @@ from ..scan.poses import as_pose
 from ..scan.sensor.files import write_ply
 from ..scan.units import MILLIMETRES
 from .destinations import destinations
-from .inputs import as_cloud, as_model
+from .inputs import as_cloud, as_model, as_workpiece
 
 _TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
 
@@ -133,7 +132,7 @@ def target_of_shape(shape: Part.Shape) -> Target:
     for known, target in _TARGETS:
         if known.isEqual(shape):
             return target
-    part = workpiece.read(shape)
+    part = as_workpiece(shape)
     target = target_of([part.geometry(index) for index in range(len(part.faces))])
     _TARGETS.appendleft((shape, target))
     return target

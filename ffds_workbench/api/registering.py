@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import Part
 
-from ..brep import workpiece
 from ..brep.model_files import Model
 from ..brep.rebuild import rebuild
 from ..brep.workpiece import Workpiece
@@ -25,7 +24,7 @@ from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
 from .aligning import AlignedScan, align_scan
-from .inputs import as_cloud, as_model, as_request, check_place
+from .inputs import as_cloud, as_model, as_request, as_workpiece, check_place
 from .methods import Deformation, check_names, find_deformation
 
 BOOLEAN_CHECK_SECONDS = 10.0
@@ -178,7 +177,7 @@ def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: 
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)
         cloud = as_cloud(scan)
-        part = workpiece.read(nominal.shape)
+        part = as_workpiece(nominal.shape)
         check_names(part, request)
     aligned = None if request.align == "none" else align_scan(nominal, cloud, request.align, progress)
     cloud = cloud if aligned is None else aligned.scan
@@ -187,7 +186,7 @@ def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: 
     with watch.stage("rebuild", "Rebuilding the model"):
         shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
     checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
-    checks.begin(nominal.shape)
+    checks.begin(nominal.shape, keep=True)
     checks.begin(shape)
     with watch.stage("certify", "Checking the topology"):
         structures = structure(nominal.shape), structure(shape)
