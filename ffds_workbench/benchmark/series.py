@@ -111,26 +111,28 @@ def _nothing(folder: Path, job: PartJob) -> Outcome:
 
 
 def _many(out: Path, count: int) -> dict[str, float]:
-    """Parts that do nothing: milliseconds of each in all, and largest memory of this process before and after."""
+    """Parts that do nothing: milliseconds of each, elapsed and of this process's processor time, which has client and
+    scheduler; and its largest memory before and after."""
     out.mkdir()
     index = PartIndex(out / layout.INDEX)
     start = time.perf_counter()
     jobs = index.add([ScanFile(out / f"part{number}.ply") for number in range(count)])
     added = time.perf_counter() - start
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    before, used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 0.0
     with connected(1, None) as client:
         queue = Queue(client, partial(_nothing, out), index.record)
         for job in jobs:
             queue.add(job)
-        start = time.perf_counter()
+        start, used = time.perf_counter(), time.process_time()
         while queue.left:
             queue.work(1.0)
-        elapsed = time.perf_counter() - start
+        elapsed, used = time.perf_counter() - start, time.process_time() - used
     done = sum(code == 0 for _, code in index.names())
     index.close()
     shutil.rmtree(out)
     after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return {"parts": count, "done": done, "index_ms": 1e3 * added / count, "part_ms": 1e3 * elapsed / count,
+            "scheduler_cpu_ms": 1e3 * used / count,
             "memory_before_mb": before, "memory_after_mb": after}
 
 
@@ -140,7 +142,8 @@ def _text(record: dict[str, Any]) -> str:
     lines += [f"{row['workers']} workers: {row['parts_per_hour']:.0f} parts/hour, a part {row['part_s']:.2f} s "
               f"({row['part_over_alone']:.0%} of a call), {row['share_of_one']:.0%} of as many single workers; "
               f"beginning and end {row['begin_and_end_s']:.1f} s" for row in record["workers"]]
-    lines += [f"{row['parts']} parts that do nothing: {row['part_ms']:.2f} ms each, index {row['index_ms']:.3f} ms; "
+    lines += [f"{row['parts']} parts that do nothing: {row['part_ms']:.2f} ms each, of which client and scheduler "
+              f"compute {row['scheduler_cpu_ms']:.2f} ms; index {row['index_ms']:.3f} ms; "
               f"{row['done']} done; memory {row['memory_before_mb']:.0f} to {row['memory_after_mb']:.0f} MB"
               for row in record["many"]]
     return "\n".join(lines)
