@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ffds_workbench import RESOURCES, api
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.errors import InputError
 from ffds_workbench.report.maps.lone_points import lone_points
 from ffds_workbench.report.pages.html_file import THREE
@@ -49,7 +49,7 @@ def page(tmp_path_factory):
     """The page and the PDF of the example's upright face."""
     folder, example = tmp_path_factory.mktemp("pages"), RESOURCES / "examples"
     with pytest.MonkeyPatch.context() as patch:  # others look at the check for Boolean operations
-        patch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+        patch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
         _write(folder, example)
     return folder / "report.html"
 
