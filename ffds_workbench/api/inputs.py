@@ -2,6 +2,7 @@
 """The inputs of the jobs: models, scans and requests, in any form that callers have them in."""
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -9,14 +10,18 @@ from typing import Any
 import numpy as np
 import Part
 
+from ..brep import workpiece
 from ..brep.model_files import Model, model_file
 from ..brep.simulated_scan import surface_samples
+from ..brep.workpiece import Workpiece
 from ..errors import InputError
 from ..registration.request import RegistrationRequest
 from ..scan import sensor_profile
 from ..scan import files as scan_files
 from ..scan.cloud import PointCloud
 from ..scan.plausibility import check_overlap
+
+_PARTS: deque[Workpiece] = deque(maxlen=2)
 
 
 def read_scan(paths: str | Path | Sequence[str | Path], unit: str = "mm") -> PointCloud:
@@ -92,6 +97,16 @@ def as_request(faces: Sequence[str] | None = None, **settings: Any) -> Registrat
         return RegistrationRequest(**plain)
     except TypeError as unknown:
         raise InputError(f"A registration has no such setting: {unknown}.") from None
+
+
+def as_workpiece(shape: Part.Shape) -> Workpiece:
+    """A shape read; the last ones are kept, for the next scan of the same part (InputError where it has no faces)."""
+    for known in _PARTS:
+        if known.shape.isEqual(shape):
+            return known
+    part = workpiece.read(shape)
+    _PARTS.appendleft(part)
+    return part
 
 
 def check_place(scan: PointCloud, model: Model) -> None:

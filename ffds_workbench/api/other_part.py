@@ -15,7 +15,7 @@ from ..registration.arrays import Array
 from ..registration.rigid import AMBIGUOUS, FAILED, align
 from ..registration.uv_raster import make_raster
 from ..scan.cloud import PointCloud
-from .aligning import target_of_shape
+from .placing import target_of_shape
 
 _LARGEST_DEFORMATION = 0.05
 """Of the part's size (a physical assumption): what a part is deformed by is less than a twentieth of its size."""

@@ -15,6 +15,7 @@ from ..report import picture as drawing
 from ..report.deviation import FaceDeviation
 from ..report.file_certificate import FileCertificate, certify_file
 from ..scan.cloud import PointCloud
+from .certified import CertifiedModel
 from .destinations import destinations
 from .deviating import Deviation
 from .registering import Result
@@ -40,9 +41,7 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
     """
     model_file.check_output(Path(out))
     outputs = destinations((out, report, picture), inputs)
-    with replacing(outputs.pop(0)) as temporary:
-        back = model_file.write(result.model, temporary[0])
-        certificate = certify_file(result.nominal.shape, result.unchecked.before, back)
+    certificate = write_certified(result, outputs.pop(0))
     with replacing(*outputs.values()) as temporary:
         target = dict(zip(outputs, temporary, strict=True))
         if picture is not None:
@@ -53,6 +52,23 @@ def write(result: Result, out: str | Path, report: str | Path | None = None, pic
             topology = result.report["topology"] | {"written": certificate.as_dict()}
             record.write(result.report | {"topology": topology}, target[1])
     return certificate
+
+
+def write_certified(result: CertifiedModel, path: Path) -> FileCertificate:
+    """Write a deformed model, read it back and certify it before it replaces an earlier file.
+
+    Parameters
+    ----------
+    result : the model
+    path : .step, .brep or .FCStd
+
+    Raises
+    ------
+    RefusedError : the disk is full, or the file would not hold the same model
+    """
+    with replacing(path) as temporary:
+        back = model_file.write(result.model, temporary[0])
+        return certify_file(result.nominal.shape, result.unchecked.before, back)
 
 
 def write_deviation(result: Deviation, report: str | Path | None = None, picture: str | Path | None = None,

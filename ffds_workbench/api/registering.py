@@ -3,65 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import Part
 
-from ..brep import workpiece
 from ..brep.model_files import Model
-from ..brep.rebuild import rebuild
 from ..brep.workpiece import Workpiece
 from ..registration.face import FaceRegistration
 from ..registration.joint import JointFace, JointRegistration
 from ..registration.request import RegistrationRequest
 from ..report import record, table
-from ..report.boolean_check import BooleanChecks
-from ..report.certificate import Certificate, Structure, condition, enforce, structure
 from ..report.comparison import compare
 from ..report.deviation import FaceDeviation
 from ..report.stopwatch import Progress, Stopwatch
 from ..scan.cloud import PointCloud
-from .aligning import AlignedScan, align_scan
-from .inputs import as_cloud, as_model, as_request, check_place
+from .placing import AlignedScan, align_scan
+from .certified import CertifiedModel, certified
+from .inputs import as_cloud, as_model, as_request, as_workpiece, check_place
 from .methods import Deformation, check_names, find_deformation
-
-BOOLEAN_CHECK_SECONDS = 10.0
-"""Processor time that the check of a shape for Boolean operations, which runs beside the other work, may take before
-the certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
-SURFACE_TOLERANCE = 1e-5
-"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(CertifiedModel):
     """An as-built model and how it came about. The deviations are measured at first use.
 
     Attributes
     ----------
-    model : the as-built shape with the nominal's name and colours
-    nominal : what it was made from
-    part : its faces
+    part : faces of the nominal model
     scan : what it was made to fit
     request : how it was asked for
     found : the displacements, and where they come from
-    structures : what the as-built shape had to keep, of the nominal and of itself
-    checks : for Boolean operations, of the nominal and of the as-built shape
-    watch : how long what took
     aligned : the scan as it was brought onto the model before, where that was asked for
     """
 
-    model: Model
-    nominal: Model
     part: Workpiece
     scan: PointCloud
     request: RegistrationRequest
     found: Deformation
-    structures: tuple[Structure, Structure]
-    checks: BooleanChecks
-    watch: Stopwatch
     aligned: AlignedScan | None = None
 
     @property
@@ -81,20 +62,6 @@ class Result:
             faces = self.found.faces if self.joint is None else range(len(self.part.faces))
         with self.watch.stage("deviation", "Measuring the deviation"):
             return compare(self.part, self.shape, list(faces), self.scan.points)
-
-    @cached_property
-    def unchecked(self) -> Certificate:
-        """Topology before and after, without the check for Boolean operations: waits for nothing."""
-        before, after = (condition(shape, known=known) for shape, known in
-                         zip((self.nominal.shape, self.shape), self.structures, strict=True))
-        return Certificate(before, after)
-
-    @cached_property
-    def certificate(self) -> Certificate:
-        """Topology before and after; waits for the check for Boolean operations."""
-        before, after = self.unchecked.before, self.unchecked.after
-        errors = self.checks.errors()
-        return Certificate(replace(before, boolean_check=errors[0]), replace(after, boolean_check=errors[1]))
 
     @cached_property
     def figures(self) -> dict[str, Any]:
@@ -124,11 +91,6 @@ class Result:
     def report(self) -> dict[str, Any]:
         """The JSON report as a dictionary; waits for the check for Boolean operations."""
         return self.figures | {"topology": self.certificate.as_dict()}
-
-    @property
-    def shape(self) -> Part.Shape:
-        """The as-built shape."""
-        return self.model.shape
 
     def table(self) -> str:
         """All of it as text: the alignment that went before, if one did, deviation and topology."""
@@ -178,19 +140,11 @@ def run(request: RegistrationRequest, model: Model | Part.Shape | object, scan: 
     with watch.stage("read", "Reading the model"):
         nominal = as_model(model)
         cloud = as_cloud(scan)
-        part = workpiece.read(nominal.shape)
+        part = as_workpiece(nominal.shape)
         check_names(part, request)
     aligned = None if request.align == "none" else align_scan(nominal, cloud, request.align, progress)
     cloud = cloud if aligned is None else aligned.scan
     check_place(cloud, nominal)
     found = find_deformation(part, cloud, request, watch)
-    with watch.stage("rebuild", "Rebuilding the model"):
-        shape = rebuild(part, found.displacements, SURFACE_TOLERANCE)
-    checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
-    checks.begin(nominal.shape)
-    checks.begin(shape)
-    with watch.stage("certify", "Checking the topology"):
-        structures = structure(nominal.shape), structure(shape)
-        enforce(*structures)
-    return Result(replace(nominal, shape=shape), nominal, part, cloud, request, found, structures, checks, watch,
-                  aligned)
+    built = certified(nominal, part, found.displacements, watch)
+    return Result(built.model, nominal, built.structures, built.checks, watch, part, cloud, request, found, aligned)

@@ -2,4 +2,4 @@
 """Measurements that anyone can rerun. ``./ffds benchmark NAME`` calls ``run(folder, progress)`` of the module NAME."""
 
 NAMES = ("accuracy", "alignment", "calibrate", "topology", "speed", "real", "paper", "peers", "scaling", "sizes",
-         "world", "fuzz", "summary")
+         "world", "series", "fuzz", "compensation", "summary")

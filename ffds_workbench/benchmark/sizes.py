@@ -22,10 +22,10 @@ from ..errors import FfdsError
 from ..scan.sensor import SensorSettings, View
 from ..scan.sensor.files import write_ply
 from .accuracy_study.accuracy_cases import judge_by_truth
-from .frames import frame
 from .pages import page, style
 from .pages.page import Picture, Section, Table
 from .simulated.families import deformation, scanned, through_step
+from .simulated.frames import frame
 from .simulated.parts import FamilyPart, bracket
 from .simulated.warps import Warp
 

@@ -17,7 +17,7 @@ import numpy as np
 import Part
 
 from .. import ROOT
-from ..api.registering import SURFACE_TOLERANCE as LOCAL_TOLERANCE
+from ..api.certified import SURFACE_TOLERANCE as LOCAL_TOLERANCE
 from ..brep import topology, workpiece
 from ..brep.continuity import local_displacements
 from ..brep.face_displacement import FaceDisplacement

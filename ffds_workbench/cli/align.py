@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..scan.units import MILLIMETRES
 from .terminal import ProgressLine
+
+if TYPE_CHECKING:
+    from .. import api
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -24,6 +28,13 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--pose", type=Path, metavar="POSE.json", help="the pose, its verdict and its rivals")
     command.add_argument("--mode", choices=["fine", "global"], default="global",
                          help="fine: from where the scan lies; global: from anywhere (default)")
+    which = command.add_mutually_exclusive_group()
+    which.add_argument("--datum", nargs="+", metavar="FaceN",
+                       help="datum faces, the primary one first: planes, cylinders or spheres, met by least squares")
+    which.add_argument("--rps", type=Path, metavar="FILE.csv",
+                       help="reference points that hold along their directions: x,y,z,nx,ny,nz and maybe tolerance")
+    command.add_argument("--lock", type=lambda text: text.split(","), default=[], metavar="tx,ty,tz,rx,ry,rz",
+                         help="degrees of freedom of the model's frame that stay as they are, with --datum or --rps")
     command.set_defaults(run=run)
 
 
@@ -31,7 +42,7 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds align``: the verdict to print."""
     from .. import api
 
-    inputs = [options.model, *options.scan]
+    inputs = [path for path in (options.model, *options.scan, options.rps) if path is not None]
     api.check_outputs((options.out, options.pose), inputs)
     if options.out.suffix.lower() != ".ply":
         raise InputError(f"An aligned scan is written as .ply, not as '{options.out.suffix}'.")
@@ -39,7 +50,20 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     scan = api.read_scan(options.scan, options.scan_unit)
     progress(f"Reading {options.model}")
     model = api.read_model(options.model, options.object)
-    aligned = api.align_scan(model, scan, options.mode, progress)
+    aligned = _aligned(options, model, scan, progress)
     api.write_alignment(aligned, options.out, options.pose, inputs)
     names = ", ".join(str(path) for path in (options.out, options.pose) if path is not None)
     return f"{aligned.table()}\n\nWritten: {names}"
+
+
+def _aligned(options: argparse.Namespace, model: api.Model, scan: api.PointCloud, progress: ProgressLine
+             ) -> api.AlignedScan | api.DatumAlignment:
+    from .. import api
+
+    if options.datum:
+        return api.align_on_datum_faces(model, scan, options.datum, options.mode, options.lock, progress)
+    if options.rps:
+        return api.align_on_reference_points(model, scan, options.rps, options.mode, options.lock, progress)
+    if options.lock:
+        raise InputError("--lock goes with --datum or --rps.")
+    return api.align_scan(model, scan, options.mode, progress)

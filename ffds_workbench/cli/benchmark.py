@@ -23,6 +23,7 @@ def add(commands: argparse._SubParsersAction) -> None:
                                  help="folder for tables and pictures")
         measurement.set_defaults(run=benchmark, more=lambda options: {})
     _add_world(measurements.choices["world"])
+    _add_series(measurements.choices["series"])
     _add_fuzz(measurements.choices["fuzz"])
 
 
@@ -50,6 +51,15 @@ def _world(options: argparse.Namespace) -> dict[str, Any]:
     chosen = {name: value for name in names if (value := getattr(options, name)) is not None}
     return {"parts": options.parts, "primitives": options.primitives, "settings": ScanSettings(**chosen),
             "deformations": options.deformations or DEFORMATIONS, "workers": options.workers, "limit": options.limit}
+
+
+def _add_series(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--parts", type=int, default=8, metavar="N", help="scans of each series (default: 8)")
+    command.add_argument("--workers", type=int, nargs="+", default=[1, 2], metavar="N", help="default: 1 2")
+    command.add_argument("--many", type=int, nargs="+", default=[1000], metavar="N",
+                         help="numbers of parts that do nothing (default: 1000)")
+    command.set_defaults(more=lambda options: {"parts": options.parts, "workers": options.workers,
+                                               "many": options.many})
 
 
 def _add_fuzz(command: argparse.ArgumentParser) -> None:

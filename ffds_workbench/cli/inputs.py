@@ -38,7 +38,7 @@ def add_registration(command: argparse.ArgumentParser) -> None:
     """The arguments of a registration; their values are checked by `RegistrationRequest`."""
     command.add_argument("--face", nargs="+", action="extend", metavar="FaceN",
                          help="faces to deform, each by itself (default: the whole part)")
-    command.add_argument("--freeze", nargs="+", action="extend", default=[], metavar="FaceN",
+    command.add_argument("--freeze", "--fixed", nargs="+", action="extend", default=[], metavar="FaceN",
                          help="faces that must not move")
     command.add_argument("--method", choices=METHODS, default=_PLAIN.method, help=f"default: {_PLAIN.method}")
     command.add_argument("--lattice", type=_lattice, default=_PLAIN.lattice, metavar="NIxNJ",

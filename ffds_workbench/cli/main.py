@@ -19,6 +19,7 @@ from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from . import align, benchmark, inspect, prepare, seams, sensor, series, serve, simulate, weld
 from .inputs import add_inputs, add_registration, direction, read_inputs, read_request
+from .morphing import compensate, field, morph
 from .terminal import Finished, ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
@@ -96,6 +97,9 @@ def command_line() -> argparse.ArgumentParser:
     align.add(commands)
     simulate.add(commands)
     sensor.add(commands)
+    field.add(commands)
+    morph.add(commands)
+    compensate.add(commands)
     seams.add(commands)
     weld.add(commands)
     series.add(commands)

@@ -26,6 +26,8 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--resume", action="store_true", help="go on with a series that was interrupted")
     command.add_argument("--watch", type=Path, metavar="FOLDER",
                          help="take what comes into this folder, until a file STOP is there")
+    command.add_argument("--plan", type=Path, metavar="PLAN.json",
+                         help="hold every part against this inspection plan, see ffds inspect")
     command.add_argument("--part-seconds", type=float, default=900.0, metavar="S",
                          help="a part that takes longer is refused (default: 900)")
     command.add_argument("--part-memory", type=float, metavar="MB",
@@ -42,5 +44,6 @@ def series(options: argparse.Namespace, progress: Progress) -> Finished:
     memory = None if options.part_memory is None else options.part_memory * 2**20
     limits = api.SeriesLimits(options.part_seconds, memory)
     found = run_series(read_request(options), options.model, options.scan, options.out, progress, options.object,
-                       options.scan_unit, options.workers, options.scheduler, options.resume, options.watch, limits)
+                       options.scan_unit, options.workers, options.scheduler, options.resume, options.watch, limits,
+                       options.plan)
     return Finished(f"{found.table()}\n\nWritten: {options.out}", found.exit)

@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 import weakref
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -64,19 +65,27 @@ class BooleanChecks:
     def __init__(self, limit: float) -> None:
         self._limit = limit
         self._folder = tempfile.TemporaryDirectory()
-        self._checks: list[_Check] = []
+        self._checks: list[_Check | _KnownCheck] = []
+        self._kept: list[tuple[Part.Shape, _Check]] = []
         self._processes: list[subprocess.Popen[str]] = []
         self._end = weakref.finalize(self, _end, self._processes, self._folder)
 
-    def begin(self, shape: Part.Shape) -> None:
-        """Begin the check of a shape."""
+    def begin(self, shape: Part.Shape, keep: bool = False) -> None:
+        """Begin the check of a shape; with ``keep`` its answer is kept for the next time, as of a nominal part."""
+        for known, errors in _KNOWN:
+            if known.isEqual(shape):
+                self._checks.append(_KnownCheck(errors))
+                return
         path = Path(self._folder.name) / f"{len(self._processes)}.brep"
         bodies = topology.bodies(shape)
         Part.makeCompound(bodies).exportBrep(str(path))
         command = [find_freecad.interpreter(), "-c", _CHECKER, str(path), json.dumps(sys.path),
                    str(math.ceil(self._limit) + 1)]
         self._processes.append(subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True))
-        self._checks.append(_Check(self._processes[-1], len(bodies), time.monotonic() + _PATIENCE * self._limit))
+        check = _Check(self._processes[-1], len(bodies), time.monotonic() + _PATIENCE * self._limit)
+        self._checks.append(check)
+        if keep:
+            self._kept.append((shape, check))
 
     @property
     def done(self) -> bool:
@@ -85,7 +94,10 @@ class BooleanChecks:
 
     def errors(self) -> tuple[BodyErrors, ...]:
         """Number of errors found in each body of each shape, waited for."""
-        found = tuple(check.errors() for check in self._checks)
+        answers = {id(check): check.errors() for check in self._checks}
+        found = tuple(answers[id(check)] for check in self._checks)
+        _KNOWN.extendleft((shape, errors) for shape, check in self._kept if None not in (errors := answers[id(check)]))
+        self._kept.clear()
         self._end()
         return found
 
@@ -110,6 +122,21 @@ class _Check:
         output, _ = self.process.communicate()
         found = [int(line.partition("errors:")[2]) for line in output.splitlines() if "errors:" in line]
         return (*found, *[None] * (self.bodies - len(found)))
+
+
+@dataclass(frozen=True)
+class _KnownCheck:
+    """The check of a shape that was checked before."""
+
+    found: BodyErrors
+    done: bool = True
+
+    def errors(self) -> BodyErrors:
+        return self.found
+
+
+_KNOWN: deque[tuple[Part.Shape, BodyErrors]] = deque(maxlen=4)
+"""Shapes whose check has been kept, and its errors."""
 
 
 def total(errors: BodyErrors) -> int | None:

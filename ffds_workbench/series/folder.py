@@ -20,7 +20,6 @@ from .setup import Outcome
 
 PART, REPORT, FIELD, AS_BUILT = "part.json", "report.json", "field.npz", "as_built.step"
 PLACES, SERIES, MEAN, PAGE, INDEX = "places.npz", "series.json", "mean_field.csv", "index.html", "index.sqlite"
-INSPECTION = "inspection"
 _WORK, _LOCK = ".work", ".lock"
 TAKEN = {PLACES, SERIES, MEAN, PAGE, INDEX, "modes.csv", "parts.csv"}
 """Names in the folder of a series that no part may have."""

@@ -58,7 +58,8 @@ class Series:
 def series(model: str | Path, scans: Sequence[str | Path], out: str | Path, faces: Sequence[str] | None = None,
            progress: Progress = lambda text: None, *, label: str | None = None, scan_unit: str = "mm",
            workers: int | None = None, scheduler: str | None = None, resume: bool = False,
-           watch: str | Path | None = None, limits: SeriesLimits | None = None, **settings: Any) -> Series:
+           watch: str | Path | None = None, limits: SeriesLimits | None = None, plan: str | Path | None = None,
+           **settings: Any) -> Series:
     """Register a scan after the other, each a part of its own, on all processors or on a cluster.
 
     ``api.series("bracket.step", ["scans"], "out").exit`` is 0 if all of them were registered.
@@ -77,6 +78,7 @@ def series(model: str | Path, scans: Sequence[str | Path], out: str | Path, face
     resume : go on with a series that was interrupted
     watch : folder whose files are taken as they come, until a file STOP is there
     limits : what one part may take
+    plan : file of an inspection plan that every part is held against
     settings : as for ``api.register``
 
     Raises
@@ -86,12 +88,12 @@ def series(model: str | Path, scans: Sequence[str | Path], out: str | Path, face
     """
     request = api.as_request(faces, **settings)
     return run_series(request, Path(model), scans, Path(out), progress, label, scan_unit, workers, scheduler, resume,
-                      watch, limits)
+                      watch, limits, None if plan is None else Path(plan))
 
 
 def run_series(request: RegistrationRequest, model: Path, scans: Sequence[str | Path], out: Path, progress: Progress,
                label: str | None, scan_unit: str, workers: int | None, scheduler: str | None, resume: bool,
-               watch: str | Path | None, limits: SeriesLimits | None) -> Series:
+               watch: str | Path | None, limits: SeriesLimits | None, plan: Path | None) -> Series:
     """Do what `series` is asked for, with a request at hand."""
     distributed("a series")
     if not scans and watch is None:
@@ -102,7 +104,7 @@ def run_series(request: RegistrationRequest, model: Path, scans: Sequence[str | 
     limits = limits or SeriesLimits()
     if limits.memory is None and scheduler is None and share < float("inf"):
         limits = replace(limits, memory=share)
-    setup = SeriesSetup(model, label, scan_unit, request, out, limits)
+    setup = SeriesSetup(model, label, scan_unit, request, out, limits, plan)
     progress(f"Reading {model}")
     prepared = PreparedSeries(setup)  # and says what is wrong with the model or the faces' names
     setup = setup.absolute()

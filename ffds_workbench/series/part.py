@@ -12,6 +12,7 @@ from .. import api
 from ..api.methods import check_names
 from ..brep import workpiece
 from ..errors import FfdsError, InputError, RefusedError
+from ..inspection import write_inspection
 from . import folder
 from .places import displacement, places_of, write_field
 from .setup import REFUSED, Outcome, PartJob, SeriesSetup
@@ -25,7 +26,7 @@ class PreparedSeries:
 
     Raises
     ------
-    InputError : the model cannot be read, or has not the faces that the request names
+    InputError : the model or the plan cannot be read, or the model has not the faces that the request names
     """
 
     def __init__(self, setup: SeriesSetup) -> None:
@@ -34,6 +35,7 @@ class PreparedSeries:
         self.part = workpiece.read(self.model.shape)
         check_names(self.part, setup.request)
         self.places = places_of(self.part)
+        self.plan = None if setup.plan is None else api.read_plan(setup.plan)
         self._step = api.step_keeps_numbers(self.model)
 
     @property
@@ -49,7 +51,8 @@ class PreparedSeries:
             return standing
         try:
             result = self._registered(job)
-            return folder.deliver(self.setup.folder, self._outcome(job, start), lambda path: self._write(result, path))
+            return folder.deliver(self.setup.folder, self._outcome(job, start),
+                                  lambda path: self._write(result, path, job.name))
         except FfdsError as error:
             if _of_the_machine(error):
                 return self._outcome(job, start, error, final=False)
@@ -62,9 +65,12 @@ class PreparedSeries:
         scan = api.read_scan(job.scan, self.setup.scan_unit)
         return api.run(self.setup.request, self.model, scan)
 
-    def _write(self, result: api.Result, path: Path) -> None:
+    def _write(self, result: api.Result, path: Path, title: str) -> None:
         api.write(result, path / self.as_built, path / folder.REPORT)
         write_field(path / folder.FIELD, *displacement(result, self.places))
+        if self.plan is not None:
+            write_inspection(api.inspect_result(result, self.plan).inspection, path, f"Inspection of {title}",
+                             [self.as_built, folder.REPORT])
 
     def _outcome(self, job: PartJob, start: float, error: FfdsError | None = None, final: bool = True) -> Outcome:
         said = "" if error is None else " ".join(str(error).split())

@@ -14,9 +14,10 @@ from ..output import replacing
 from ..registration.arrays import Array
 from ..report import record as reports
 from . import folder as layout
+from .inspected import characteristics, charts, sentences
 from .setup import Outcome
-from .told import (Modes, SeriesPlaces, ewma_chart, find_change, find_modes, find_outliers, find_scatter,
-                   group_difference, means_chart, owner_scatter, scatter_chart)
+from .told import (Modes, SeriesPlaces, find_change, find_modes, find_outliers, find_scatter, group_difference,
+                   owner_scatter)
 
 _MOST_PARTS = 2000
 """Parts whose fields are held at once; of more, so many are taken at equal steps, which the record says."""
@@ -46,6 +47,8 @@ def write_summary(folder: Path, parts: Labelled, places: SeriesPlaces) -> dict[s
     if fields:
         moved, sigma = (np.stack(arrays).astype(float) for arrays in zip(*fields, strict=True))
         record |= _told(moved, sigma, places, [part.name for part, _ in used], [labels for _, labels in used])
+        record["characteristics"] = characteristics(folder, [part.name for part, _ in used])
+        record["told"] += sentences(record["characteristics"])
         scatter = find_scatter(moved, sigma, places)
         mean_lines = np.column_stack([places.position, scatter.mean, scatter.sigma]).tolist()
     from .page import series_page
@@ -93,14 +96,6 @@ def _told(moved: Array, sigma: Array, places: SeriesPlaces, names: Sequence[str]
         "charts": {name: charts(figures) for name, figures in runs.items()},
         "outliers": [asdict(outlier) | {"part": names[outlier.part]} for outlier in outliers]}
     return record | {"told": _sentences(record)}
-
-
-def charts(figures: Array) -> dict[str, Any]:
-    """The control charts of a run of figures, as JSON has them."""
-    found = {chart.name: chart for chart in (means_chart(figures), scatter_chart(figures), ewma_chart(figures))
-             if chart is not None}
-    return {name: {"values": chart.values.tolist(), "centre": chart.centre, "low": chart.low.tolist(),
-                   "high": chart.high.tolist(), "signals": chart.signals} for name, chart in found.items()}
 
 
 def face_means(moved: Array, places: SeriesPlaces) -> tuple[Any, Array]:

@@ -1617,6 +1617,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Ein Quader ist X0,Y0,Z0,X1,Y1,Z1, die untere Ecke zuerst: X0,Y0,Z0 müssen jeweils kleiner sein als X1,Y1,Z1.</translation>
     </message>
     <message>
+      <source>A compensation needs one scan or more, and a factor that is a number.</source>
+      <translation>Eine Kompensation braucht mindestens einen Scan und einen Faktor, der eine Zahl ist.</translation>
+    </message>
+    <message>
       <source>A face of {0} is named, but {1} is made from {2}: choose faces of one part.</source>
       <translation>Eine Fläche von {0} ist genannt, aber {1} entsteht aus {2}: Wählen Sie Flächen eines Teils.</translation>
     </message>
@@ -1635,6 +1639,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>A table is seen by a camera: name at least one view.</source>
       <translation>Einen Tisch sieht nur eine Kamera: Nennen Sie mindestens eine Ansicht.</translation>
+    </message>
+    <message>
+      <source>A tolerance of {0} mm makes no sense: give one above 0.</source>
+      <translation>Eine Toleranz von {0} mm ergibt keinen Sinn: geben Sie eine über 0 an.</translation>
     </message>
     <message>
       <source>A view needs a direction from the part to the camera: 0,0,0 is none.</source>
@@ -1701,6 +1709,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Auf das Modell zuschneiden</translation>
     </message>
     <message>
+      <source>Datums are one to three different faces, the primary one first.</source>
+      <translation>Bezüge sind eine bis drei verschiedene Flächen, der Primärbezug zuerst.</translation>
+    </message>
+    <message>
       <source>Edge{0} and its faces run at different parameters: repair the shape first.</source>
       <translation>Edge{0} und ihre Flächen haben verschiedene Parameter: Reparieren Sie zuerst die Form.</translation>
     </message>
@@ -1757,6 +1769,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Flächen werden gesucht, die der Scan erfasst</translation>
     </message>
     <message>
+      <source>Following the field</source>
+      <translation>Dem Feld wird gefolgt</translation>
+    </message>
+    <message>
       <source>Isometry couples all faces of a sheet: it needs method robust without named faces.</source>
       <translation>Isometrie verbindet alle Flächen eines Blechs: Sie braucht das Verfahren robust ohne genannte Flächen.</translation>
     </message>
@@ -1787,6 +1803,14 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>Measuring the deviation</source>
       <translation>Die Abweichung wird gemessen</translation>
+    </message>
+    <message>
+      <source>Meeting the datums</source>
+      <translation>Ausrichten an den Bezügen</translation>
+    </message>
+    <message>
+      <source>Meeting the reference points</source>
+      <translation>Ausrichten an den Referenzpunkten</translation>
     </message>
     <message>
       <source>Name at least one edge for the seam.</source>
@@ -1861,12 +1885,24 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Ausreißer jenseits von {0} mm ergeben keinen Sinn: Geben Sie einen Abstand über 0 an.</translation>
     </message>
     <message>
+      <source>Point {0} of {1} lies {2} mm off the part: points are given at their nominal places, in mm.</source>
+      <translation>Punkt {0} von {1} liegt {2} mm neben dem Teil: Punkte werden an ihren Sollpositionen angegeben, in mm.</translation>
+    </message>
+    <message>
       <source>Preparing has no such setting: {0}.</source>
       <translation>Eine solche Einstellung gibt es beim Aufbereiten nicht: {0}.</translation>
     </message>
     <message>
       <source>Reading the model</source>
       <translation>Das Modell wird gelesen</translation>
+    </message>
+    <message>
+      <source>Reading the model and the field</source>
+      <translation>Modell und Feld werden gelesen</translation>
+    </message>
+    <message>
+      <source>Reading the models</source>
+      <translation>Modelle werden gelesen</translation>
     </message>
     <message>
       <source>Rebuilding the model</source>
@@ -1881,8 +1917,16 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Alle Flächen werden zusammen angepasst: {0}</translation>
     </message>
     <message>
+      <source>Registering part {0} of {1}</source>
+      <translation>Teil {0} von {1} wird registriert</translation>
+    </message>
+    <message>
       <source>Scanning the part</source>
       <translation>Das Teil wird gescannt</translation>
+    </message>
+    <message>
+      <source>Scans of a previous trial need the tool that made it: name it with --previous.</source>
+      <translation>Scans eines früheren Versuchs brauchen das Werkzeug, mit dem er gemacht wurde: geben Sie es mit --previous an.</translation>
     </message>
     <message>
       <source>Shell {0} is no longer closed.</source>
@@ -1935,6 +1979,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The deformed model lost its topology and was not written: {0}</source>
       <translation>Das verformte Modell verlor seine Topologie und wurde nicht geschrieben: {0}</translation>
+    </message>
+    <message>
+      <source>The degree of freedom '{0}' is unknown: lock some of {1}.</source>
+      <translation>Der Freiheitsgrad „{0}“ ist unbekannt: sperren Sie welche aus {1}.</translation>
     </message>
     <message>
       <source>The displacement found, {0} mm, is larger than the part ({1} mm): align the scan first.</source>
@@ -2201,6 +2249,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Der Scan zeigt dieses Teil nicht dort, wo er liegt: {0}; wählen Sie einen anderen Scan oder richten Sie ihn am Modell aus.</translation>
     </message>
     <message>
+      <source>The scan does not show {0}, the primary datum: choose another one, or scan it.</source>
+      <translation>Der Scan zeigt {0}, den Primärbezug, nicht: wählen Sie einen anderen oder scannen Sie ihn.</translation>
+    </message>
+    <message>
       <source>The scan extends over only {0} mm of a part of {1} mm: check its unit, or scan more of the part.</source>
       <translation>Der Scan erstreckt sich nur über {0} mm eines Teils von {1} mm: Prüfen Sie seine Einheit, oder scannen Sie mehr vom Teil.</translation>
     </message>
@@ -2227,6 +2279,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>The scan shows less than half of {0}: scan more of it.</source>
       <translation>Der Scan zeigt weniger als die Hälfte von {0}: mehr davon scannen.</translation>
+    </message>
+    <message>
+      <source>The scan shows none of the reference points: align it with the model first, or scan them.</source>
+      <translation>Der Scan zeigt keinen der Referenzpunkte: richten Sie ihn zuerst am Modell aus oder scannen Sie sie.</translation>
     </message>
     <message>
       <source>The scan shows too little of {0}: its {1} points lie in {2} places, and at least {3} are needed; leave the face out or scan it from another side.</source>
@@ -2449,8 +2505,36 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
       <translation>Die Steifigkeit {0} ergibt keinen Sinn: 1 ist die Vorgabe, nehmen Sie {1} bis {2}.</translation>
     </message>
     <message>
+      <source>The table of measured points {0} has a normal without a length.</source>
+      <translation>Die Tabelle der Messpunkte {0} enthält eine Normale ohne Länge.</translation>
+    </message>
+    <message>
+      <source>The table of measured points {0} has a sigma that is not above 0.</source>
+      <translation>Die Tabelle der Messpunkte {0} enthält ein Sigma, das nicht über 0 liegt.</translation>
+    </message>
+    <message>
+      <source>The table of measured points {0} has not the columns x,y,z,nx,ny,nz,deviation or x,y,z,dx,dy,dz.</source>
+      <translation>Die Tabelle der Messpunkte {0} hat weder die Spalten x,y,z,nx,ny,nz,deviation noch x,y,z,dx,dy,dz.</translation>
+    </message>
+    <message>
+      <source>The table of measured points {0} holds what is no number: leave these rows out.</source>
+      <translation>Die Tabelle der Messpunkte {0} enthält Werte, die keine Zahlen sind: lassen Sie diese Zeilen weg.</translation>
+    </message>
+    <message>
+      <source>The table of reference points {0} has a direction or a tolerance that is none.</source>
+      <translation>Die Tabelle der Referenzpunkte {0} enthält eine ungültige Richtung oder Toleranz.</translation>
+    </message>
+    <message>
+      <source>The table of reference points {0} has no column {1}: it has x,y,z,nx,ny,nz and maybe tolerance.</source>
+      <translation>Die Tabelle der Referenzpunkte {0} hat keine Spalte {1}: nötig sind x,y,z,nx,ny,nz, möglich ist tolerance.</translation>
+    </message>
+    <message>
       <source>The tolerance for joints must be a length between 0 and 50 mm, not {0}.</source>
       <translation>Die Toleranz für Stöße muss eine Länge zwischen 0 und 50 mm sein, nicht {0}.</translation>
+    </message>
+    <message>
+      <source>The tool cannot be made: {0}</source>
+      <translation>Das Werkzeug kann nicht erzeugt werden: {0}</translation>
     </message>
     <message>
       <source>The two faces of the seam lie back to back, so there is no torch direction between them.</source>
@@ -2739,6 +2823,10 @@ Teile berühren sich, wo sie einander näher sind als (mm):</translation>
     <message>
       <source>{0} is no as-built part of this workbench.</source>
       <translation>{0} ist kein Ist-Teil dieses Arbeitsbereichs.</translation>
+    </message>
+    <message>
+      <source>{0} is no datum: it is free-form or a {1}; choose a plane, a cylinder or a sphere, or reference points.</source>
+      <translation>{0} ist kein Bezug: Freiformfläche oder {1}; wählen Sie eine Ebene, einen Zylinder, eine Kugel oder Referenzpunkte.</translation>
     </message>
     <message>
       <source>{0} is no point cloud: select a Points object as the scan.</source>

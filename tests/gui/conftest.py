@@ -13,7 +13,7 @@ import FreeCADGui as Gui
 import pytest
 from pivy import coin  # before a scene graph is asked for: FreeCAD 1.1 hands none out without it
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.compat import qt
 from ffds_workbench.gui import giving_way, running
 from ffds_workbench.gui.qt import QtCore, QtGui, QtWidgets, execute
@@ -212,7 +212,7 @@ def hands(monkeypatch):
     Checks for Boolean operations are given up at once: they would keep the machine busy for what other tests measure.
     `test_boolean_check` looks at how long one is waited for.
     """
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
     used = Hands()
     Gui.getMainWindow().showMaximized()
     Gui.activateWorkbench("FFDSWorkbench")

@@ -9,7 +9,7 @@ import FreeCAD
 import FreeCADGui as Gui
 import pytest
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
 from ffds_workbench.objects.jobs import registration_job
 from ffds_workbench.report import boolean_check
@@ -27,7 +27,7 @@ def gate(hands, monkeypatch, tmp_path):
     """A check that goes on until this file is there, and that nobody gives up before."""
     path = tmp_path / "gate"
     monkeypatch.setattr(registration_job, "_results", OrderedDict())  # what an earlier test knows of this plate
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 600.0)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 600.0)
     monkeypatch.setattr(boolean_check, "_CHECKER", WAITS.format(gate=str(path)))
     yield path
     path.touch()

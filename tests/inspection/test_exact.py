@@ -64,7 +64,7 @@ def test_flatness_of_a_cubic(part, faces):
                        ("flatness", faces["top"], 0.06))
     assert item.value == pytest.approx(0.05, abs=MICROMETRE)
     assert item.least_squares == pytest.approx(0.08, rel=0.05) and item.least_squares > item.value
-    assert item.verdict == "pass" and item.band == 0.0
+    assert item.verdict == "pass" and item.band == pytest.approx(0.0, abs=1e-12)  # rounding alone
 
 
 @pytest.mark.parametrize(("lobes", "kind"), [(2, "roundness"), (3, "roundness"), (3, "cylindricity")])

@@ -138,7 +138,7 @@ def test_values_bands_and_verdicts(files, tmp_path):
     assert json.loads((tmp_path / "inspection.json").read_text("utf-8"))["verdict"] == "undecided"
     assert "undecided" in (tmp_path / "index.html").read_text("utf-8")
     exact = api.inspect_model(model, folder / "as_built.step", folder / "plan.json").inspection
-    assert exact.exact and [item.band for item in exact.items] == [0.0] * 4
+    assert exact.exact and [item.band for item in exact.items] == pytest.approx([0.0] * 4, abs=1e-12)
 
 
 @pytest.mark.parametrize(("measured", "said"), [

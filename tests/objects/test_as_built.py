@@ -10,7 +10,7 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.objects import actions, scans
 from ffds_workbench.objects.as_built import lattices_of, report_of
@@ -22,7 +22,7 @@ NOISE = 0.02
 @pytest.fixture(autouse=True)
 def short_check(monkeypatch):
     """The check for Boolean operations, which only goes into the report, may take seconds; it is tested elsewhere."""
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
 
 
 @pytest.fixture

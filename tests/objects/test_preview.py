@@ -12,7 +12,7 @@ import Part
 import pytest
 
 from ffds_workbench import api
-from ffds_workbench.api.registering import SURFACE_TOLERANCE
+from ffds_workbench.api.certified import SURFACE_TOLERANCE
 from ffds_workbench.gui.preview.face_on_scan import corners
 from ffds_workbench.gui.preview.patches import Preview, figures
 from ffds_workbench.registration.request import ISOMETRY, METHODS, RegistrationRequest

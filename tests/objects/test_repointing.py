@@ -10,7 +10,7 @@ import numpy as np
 import Part
 import pytest
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.errors import InputError, RefusedError
 from ffds_workbench.objects import actions, scans
 from ffds_workbench.objects.repointing import references
@@ -27,7 +27,7 @@ def attach(item, support, mode: str) -> None:
 @pytest.fixture
 def lifted(monkeypatch):
     """A document with a plate, objects that refer to it, and its as-built part."""
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
     document = FreeCAD.newDocument("repointing")
     document.UndoMode = 1
     plate = document.addObject("Part::Box", "Plate")

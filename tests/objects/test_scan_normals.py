@@ -7,7 +7,7 @@ import numpy as np
 import Points
 import pytest
 
-from ffds_workbench.api import registering
+from ffds_workbench.api import certified
 from ffds_workbench.objects import actions, scans
 from ffds_workbench.objects.as_built import report_of
 from ffds_workbench.objects.jobs.registration_job import job_on, make_job
@@ -70,7 +70,7 @@ def test_aligned_by_points_they_turn_too(document):
 
 def test_they_tell_the_skin_of_a_sheet_that_stands_turned(document, tmp_path, monkeypatch):
     """A sheet of 2 mm whose upper side is seen 1 mm lower: points alone do not tell that it is not the lower one."""
-    monkeypatch.setattr(registering, "BOOLEAN_CHECK_SECONDS", 0.05)
+    monkeypatch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
     sheet = document.addObject("Part::Box", "Sheet")
     sheet.Length, sheet.Width, sheet.Height = 60, 50, 2
     sheet.Placement = TURN

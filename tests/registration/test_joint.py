@@ -154,7 +154,9 @@ def test_noise_of_few_points_is_not_their_distance_across_the_part(part, count):
     random = np.random.default_rng(count)
     points = scan_of([0.0, THICKNESS], count)
     points = points[random.permutation(len(points))[:count]]
-    found = make_problem(part, points, JointSettings(), {}).lengths.noise
+    problem = make_problem(part, points, JointSettings(), {})
+    found = problem.lengths.noise
+    assert problem.statistics.noise == found  # that tells the skins as well
     # The median absolute deviation of n/2 differences is known to 1.17 / √(n/2), 0.17 for 100 points; twice that. A
     # plate 1.5 mm off slopes by 0.1 at its ends: neighbours 3.5 mm apart differ by up to 0.35 mm; a sixth as a rule.
     assert 0.6 * NOISE < found < 1.4 * NOISE + 0.06 / np.sqrt(count / 100)

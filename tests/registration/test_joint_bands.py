@@ -99,6 +99,24 @@ def test_priors_that_cost_too_much_are_widened(problem, stepped, dense, monkeypa
     assert np.abs(blocks - wanted).max() < 1e-6 * np.abs(wanted).max()
 
 
+def test_priors_may_be_widened_by_any_factor(problem, stepped, monkeypatch):
+    """One row that outweighs all others by twelve orders of magnitude, as of a badly parametrised face, and costs
+    millions: of a sum with it nothing else can be got back, whatever it is divided by afterwards."""
+    equations, row = covariance.prior_equations, np.zeros(problem.lattices.count)
+    row[problem.lattices.controls[0]] = np.random.default_rng(2).normal(size=16)
+
+    def outweighing(*arguments):
+        found = equations(*arguments)
+        found.blocks[0, 0] += 1e16 * row[problem.pattern.rows] * row[problem.pattern.indices]
+        return found
+
+    monkeypatch.setattr(covariance, "prior_equations", outweighing)
+    monkeypatch.setattr(covariance, "prior_cost", lambda *_: 1e9)
+    monkeypatch.setattr(covariance, "_effective_dof", lambda *_: 1e3)
+    blocks, _ = covariance.covariance_blocks(problem, stepped)
+    assert (blocks[[0, 1, 2], [0, 1, 2]][:, problem.pattern.rows == problem.pattern.indices] > 0).all()
+
+
 def independent(problem, sigma):
     """Blocks of the covariance of control points that err by themselves, by ``sigma`` (3,) in x, y and z."""
     same = problem.pattern.rows == problem.pattern.indices

@@ -52,6 +52,18 @@ def test_the_displacement_stays_the_same(part, scan, coarse, faces):
         assert np.abs(after - before).max() < 1e-9
 
 
+def test_a_larger_sample_keeps_its_sides(coarse):
+    """Every point of the scan takes the outward normal of the nearest sampled one: three in four are sampled, 0.5 mm
+    apart, and hardly any is four times as far; on a radius of 20 mm that turns the normal by 0.1."""
+    def radial(points):
+        return points * [1, 1, 0] / np.linalg.norm(points[:, :2], axis=1, keepdims=True)
+
+    fine = replace(coarse, sample=coarse.scan)
+    moved = transfer(coarse, fine, replace(start(coarse), outward=radial(coarse.sample)))
+    assert len(moved.outward) == len(coarse.scan) > len(coarse.sample)
+    assert np.einsum("nx,nx->n", moved.outward, radial(coarse.scan)).min() > np.cos(0.1)
+
+
 def judged(problem, model, sensor=NOISE):
     """Which faces ask, whose cells have full weight and whose patches share errors of ``model`` (faces,) mm."""
     faces = len(problem.part.faces)

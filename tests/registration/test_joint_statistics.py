@@ -6,6 +6,7 @@ import pytest
 from ffds_workbench.registration.joint.data import median_heights, scan_statistics
 from ffds_workbench.registration.joint.data.correspondence import Correspondence
 from ffds_workbench.registration.joint.data.scatter import Scatter
+from ffds_workbench.registration.joint.problem import sample_of
 
 DENSITY, NOISE = 16.0, 0.02
 SIZE = np.array([60.0, 40.0])
@@ -85,3 +86,11 @@ def test_a_median_is_that_of_its_cell():
     values = median_heights(found, Scatter(np.ones(1), np.zeros(1), np.ones(1)), np.zeros(1, dtype=int), 4)
     assert values.height == pytest.approx([0.25, 0.0, 0.2, 0.0])
     assert values.weight[[1, 3]] == pytest.approx(0.0) and values.count == pytest.approx([4, 0, 3, 0])
+
+
+def test_the_sample_fills_the_spans_of_large_parts():
+    """As many points as twenty for each span, of which a frame has thousands, or all that there are."""
+    scan = np.zeros((100_000, 3))
+    assert len(sample_of(scan, 100, 0)) == 15_000
+    assert len(sample_of(scan, 4000, 0)) == 80_000
+    assert len(np.unique(sample_of(scan, 40_000, 0))) == 100_000

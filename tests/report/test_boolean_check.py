@@ -52,3 +52,15 @@ def test_a_check_that_ended_in_time_counts_however_late_it_is_asked_for(monkeypa
     checks._processes[0].wait()
     monkeypatch.setattr(boolean_check, "time", SimpleNamespace(monotonic=lambda: math.inf))
     assert checks.errors() == ((0,),)
+
+
+def test_a_check_that_is_kept_is_not_done_again():
+    """A nominal part is checked with the first scan of it; its copy is another shape, and checked by itself."""
+    nominal = crossing()
+    first, second = BooleanChecks(LIMIT), BooleanChecks(LIMIT)
+    first.begin(nominal, keep=True)
+    found = first.errors()
+    assert total(found[0]) > 0
+    second.begin(nominal)
+    second.begin(box(0))
+    assert len(second._processes) == 1 and second.errors() == (*found, (0,))

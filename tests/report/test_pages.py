@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from ffds_workbench import RESOURCES, api
+from ffds_workbench.api import certified
 from ffds_workbench.errors import InputError
 from ffds_workbench.report.maps.lone_points import lone_points
 from ffds_workbench.report.pages.html_file import THREE
@@ -47,13 +48,19 @@ def test_points_in_the_air_stand_alone_and_those_of_a_surface_do_not():
 def page(tmp_path_factory):
     """The page and the PDF of the example's upright face."""
     folder, example = tmp_path_factory.mktemp("pages"), RESOURCES / "examples"
+    with pytest.MonkeyPatch.context() as patch:  # others look at the check for Boolean operations
+        patch.setattr(certified, "BOOLEAN_CHECK_SECONDS", 0.05)
+        _write(folder, example)
+    return folder / "report.html"
+
+
+def _write(folder, example) -> None:
     result = api.register(api.read_model(example / "bracket.step"), api.read_scan(example / "bracket_scan.ply"),
                           faces=["Face9"])
     api.write_pages(result, folder / "report.html", folder / "report.pdf", sides=[(1, -1, 1)])
     with pytest.raises(InputError, match="is no direction"):
         api.write_pages(result, folder / "none.html", sides=[(0, 0, 0)])
     assert not (folder / "none.html").exists()
-    return folder / "report.html"
 
 
 def test_the_page_needs_nothing_beside_it_and_says_everything(page):

@@ -33,7 +33,10 @@ def scans(plate, tmp_path_factory) -> Path:
 def finished(plate, scans, tmp_path_factory) -> Path:
     """A series whose client was killed when its first part was there, and that went on."""
     out = tmp_path_factory.mktemp("series") / "out"
-    command = [str(ROOT / "ffds"), "series", str(plate[0]), str(scans), "--out", str(out), *FACE]
+    plan = {"items": [{"name": "top", "characteristic": "flatness", "of": "Face6", "tolerance": 1.5}]}
+    (out.parent / "plan.json").write_text(json.dumps(plan), "utf-8")
+    command = [str(ROOT / "ffds"), "series", str(plate[0]), str(scans), "--out", str(out), *FACE, "--plan",
+               str(out.parent / "plan.json")]
     client = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     for _ in range(6000):
         if list(out.glob("*/part.json")) or client.poll() is not None:
@@ -78,6 +81,15 @@ def test_the_mean_is_that_of_the_parts(finished):
     assert mode["share"] > 0.9
     scores = [mode["scores"][f"part{k}"] for k in range(1, 5)]
     assert np.abs(np.diff(scores)) == pytest.approx(0.7746, abs=0.05)  # of 0.1 to 0.4, over their deviation of 0.129
+
+
+def test_every_part_is_inspected(finished):
+    """The same bump of 1 mm on all of them; without bands (``--face``) nothing is certain."""
+    [top] = json.loads((finished / "series.json").read_text("utf-8"))["characteristics"]
+    assert list(top["values"]) == ["part1", "part2", "part3", "part4"] and top["verdicts"] == {"undecided": 4}
+    assert list(top["values"].values()) == pytest.approx([1.0] * 4, abs=0.05)
+    assert top["capability"]["cpk"] > 0
+    assert {"index.html", "inspection.csv", "inspection.json"} <= {path.name for path in (finished / "part1").iterdir()}
 
 
 def test_a_series_is_not_written_over(plate, finished):

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import lstsq
+from scipy.spatial import cKDTree
 
 from ..arrays import Array
 from ..splines import greville
@@ -61,7 +62,10 @@ def transfer(coarse: Problem, fine: Problem, state: State) -> State:
         size = lattice.shape[0] * lattice.shape[1]
         control_points[lattice.first_control : lattice.first_control + size] = values.reshape(size, 3)
     cache = StepCache(ShapeMatrices.of(fine, control_points), edges=EdgeCache(state.cache.edges.near))
-    return replace(state, control_points=control_points, cache=cache)
+    outward = state.outward
+    if outward is not None:  # more spans have a larger sample
+        outward = outward[cKDTree(coarse.sample).query(fine.sample, workers=-1)[1]]
+    return replace(state, control_points=control_points, cache=cache, outward=outward)
 
 
 def _sites(places: Array, bounds: tuple[float, float]) -> Array:

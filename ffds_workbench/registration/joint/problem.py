@@ -22,7 +22,7 @@ from .surfaces import (BorderDistance, Jet, JointPart, Lattices, SpanGrid, build
                        distance_to_trims, make_span_grid, normals, solid_sizes, span_counts)
 
 _SAMPLE_SIZE = 15000
-"""Scan points of the early stages (unit: time)."""
+"""Scan points of the early stages at least; they fill all spans as well (unit: time)."""
 _POINTS_PER_CELL = 8.0
 """Points of a cell where the scan is dense (theory: a median of eight is known to 0.44 of the noise)."""
 _POINTS_PER_SPAN = 20.0
@@ -138,8 +138,6 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
         raise RefusedError("Every face is frozen: leave at least one face free to move.")
     if len(scan) < _FEWEST_POINTS:
         raise RefusedError(f"The scan has only {len(scan)} points: at least {_FEWEST_POINTS} are needed.")
-    pick = np.random.default_rng(settings.seed).permutation(len(scan))[:_SAMPLE_SIZE]
-    sample = scan[pick]
     statistics = scan_statistics(scan)
     least = float(np.sqrt(_POINTS_PER_SPAN / statistics.density))
     sizes = solid_sizes(part.faces, part.solids)
@@ -147,6 +145,8 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     lattices = build_lattices(part.faces, counts)
     body_size = sizes[lattices.face_of_span]
     refuse_too_large(lattices.count, len(lattices.face_of_span) * _CELLS_PER_SPAN[0] ** 2, len(scan))
+    pick = sample_of(scan, len(lattices.face_of_span), settings.seed)
+    sample = scan[pick]
     stiffness = make_stiffness(part.faces, lattices, body_size)
     per_span = _cells_per_span(stiffness.area.sum(axis=1), statistics)
     refuse_too_large(lattices.count, len(lattices.face_of_span) * per_span**2, len(scan))
@@ -154,6 +154,7 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
     pairs = find_pairs(part.faces, part.solids, lattices, cells, stiffness.places, stiffness.area, stiffness.curvature,
                        sizes, settings.thickness_change)
     lengths = find_lengths(lattices, cells, sample, statistics)
+    statistics = replace(statistics, noise=lengths.noise)
     side = cell_sides(lattices, cells)
     border = distance_to_trims(part.faces, lattices, cells, side,
                                _FARTHEST_IN_MARGINS * lengths.border_margin + _FARTHEST_IN_SIDES * side)
@@ -170,6 +171,19 @@ def make_problem(part: JointPart, scan: Array, settings: JointSettings, finer: d
                    find_free_motions(part, lattices, cells, area, couplings.scalar), body_size,
                    float(np.median(side[lattices.face_of_span])),
                    None if scan_normals is None else scan_normals[pick])
+
+
+def sample_of(scan: Array, spans: int, seed: int) -> Index:
+    """Numbers of points of a scan at random, enough for a stiff shape of any size and for soft lattices.
+
+    Parameters
+    ----------
+    scan : (n, 3) in mm
+    spans : of all lattices
+    seed : of the choice
+    """
+    enough = max(_SAMPLE_SIZE, int(_POINTS_PER_SPAN * spans))
+    return np.random.default_rng(seed).permutation(len(scan))[:enough]
 
 
 def _cells_per_span(area: Array, statistics: ScanStatistics) -> int:

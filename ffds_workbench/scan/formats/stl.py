@@ -30,18 +30,21 @@ def read(path: Path) -> NDArray[np.float64]:
     ------
     InputError : not an STL file, or truncated
     """
+    return _merged(triangles(path))
+
+
+def triangles(path: Path) -> NDArray[np.floating]:
+    """The corners of the triangles in the order of the file, (m, 3, 3). Raises as `read` does."""
     data = path.read_bytes()
     count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else -1
     if count >= 0 and len(data) == _HEADER + count * _FACET.itemsize:
-        triangles = np.frombuffer(data, _FACET, count, _HEADER)["corners"]
-    elif data.lstrip()[:5].lower() == b"solid":
-        triangles = _ascii(path, data)
-    elif count > 0 and len(data) > _HEADER:
+        return np.asarray(np.frombuffer(data, _FACET, count, _HEADER)["corners"])
+    if data.lstrip()[:5].lower() == b"solid":
+        return _ascii(path, data)
+    if count > 0 and len(data) > _HEADER:
         raise InputError(f"The scan {path} is cut off or no STL file: it promises {count} triangles and its length "
                          f"does not fit.")
-    else:
-        raise InputError(f"The scan {path} is not an STL file.")
-    return _merged(triangles)
+    raise InputError(f"The scan {path} is not an STL file.")
 
 
 def _merged(triangles: NDArray[np.floating]) -> NDArray[np.float64]:

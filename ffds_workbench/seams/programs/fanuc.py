@@ -86,14 +86,14 @@ def _said(choice: FrameChoice, where: str) -> list[str]:
 
 
 def _places(seam: SeamMoves, first: int, frame: int, tool: int) -> list[str]:
-    """One record per place; the way through the air in joints where they are the controller's."""
+    """One record per place; the way through the air in joints lines they are the controller's."""
     poses = seam.whole_way
     angles = kuka_angles(poses[:, :3, :3])[:, ::-1]
     joints = seam.joints_for("fanuc")
     found = []
     for i, (pose, turn) in enumerate(zip(poses, angles, strict=True)):
         if joints is not None and i < len(joints):
-            where = _joints(joints[i])
+            lines = _joints(joints[i])
             head = f"\tUF : {frame}, UT : {tool},"
         else:
             x, y, z = numbers(pose[:3, 3], 4)
@@ -101,8 +101,8 @@ def _places(seam: SeamMoves, first: int, frame: int, tool: int) -> list[str]:
             known = joints is not None and seam.configurations
             configuration = seam.configurations[i] if known else USUAL_CONFIGURATION
             head = f"\tUF : {frame}, UT : {tool},\t\tCONFIG : '{configuration}',"
-            where = [f"\tX = {x}  mm,\tY = {y}  mm,\tZ = {z}  mm,", f"\tW = {w} deg,\tP = {p} deg,\tR = {r} deg"]
-        found.append("\n".join([f"P[{first + i}]{{", "   GP1:", head, *where, "};"]))
+            lines = [f"\tX = {x}  mm,\tY = {y}  mm,\tZ = {z}  mm,", f"\tW = {w} deg,\tP = {p} deg,\tR = {r} deg"]
+        found.append("\n".join([f"P[{first + i}]{{", "   GP1:", head, *lines, "};"]))
     return found
 
 

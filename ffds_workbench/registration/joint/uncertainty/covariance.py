@@ -6,7 +6,7 @@ import numpy as np
 
 from ...arrays import Array
 from ..iteration import State, add_observations, prior_equations
-from ..linear import FrontCholesky
+from ..linear import FrontCholesky, NormalEquations
 from ..prior_trust import prior_cost
 from ..problem import Problem
 from .shared_noise import shared_errors
@@ -29,17 +29,18 @@ def covariance_blocks(problem: Problem, state: State) -> tuple[Array, Array]:
 
 
 def _factor(problem: Problem, state: State) -> tuple[FrontCholesky, Array]:
-    equations = prior_equations(problem, state, 1.0)
-    prior = equations.blocks.copy()
-    add_observations(equations, problem, state, problem.cells.displaced(problem.lattices, state.control_points))
+    prior = prior_equations(problem, state, 1.0).blocks
+    # By themselves: of a sum with priors of many orders of magnitude the observations cannot be got back.
+    observations = NormalEquations(problem.pattern, np.zeros_like(prior), np.zeros((problem.lattices.count, 3)))
+    add_observations(observations, problem, state, problem.cells.displaced(problem.lattices, state.control_points))
     # The factor that the solve ends with is of an earlier trust in the priors.
-    factor = FrontCholesky(problem.pattern.layout, equations.blocks)
+    factor = FrontCholesky(problem.pattern.layout, observations.blocks + prior)
     ratio = prior_cost(problem, state) / max(_effective_dof(problem, factor, prior), 1.0)
     errors = shared_errors(problem, state, factor)
     if ratio < _PRIORS_WIDE_ENOUGH:
         return factor, errors
-    prior *= 1 / ratio - 1
-    prior += equations.blocks
+    prior /= ratio
+    prior += observations.blocks
     return FrontCholesky(problem.pattern.layout, prior, factor), errors
 
 

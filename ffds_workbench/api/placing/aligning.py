@@ -6,30 +6,38 @@ from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import Part
 
-from ..brep import workpiece
-from ..brep.model_files import Model
-from ..errors import InputError, RefusedError
-from ..output import replacing
-from ..registration.motions import describe_difference
-from ..registration.request import ALIGNMENTS
-from ..registration.rigid import FAILED, Alignment, Target, align, target_of
-from ..registration.rigid.scan_unit import unit_by_size
-from ..report import record
-from ..report.stopwatch import Progress, Stopwatch
-from ..scan.cloud import PointCloud
-from ..scan.plausibility import wrong_unit
-from ..scan.poses import as_pose
-from ..scan.sensor.files import write_ply
-from ..scan.units import MILLIMETRES
-from .destinations import destinations
-from .inputs import as_cloud, as_model
+from ...brep.model_files import Model
+from ...errors import InputError, RefusedError
+from ...output import replacing
+from ...registration.motions import describe_difference
+from ...registration.request import ALIGNMENTS
+from ...registration.rigid import FAILED, Alignment, Target, align, target_of
+from ...registration.rigid.scan_unit import unit_by_size
+from ...report import record
+from ...report.stopwatch import Progress, Stopwatch
+from ...scan.cloud import PointCloud
+from ...scan.plausibility import wrong_unit
+from ...scan.poses import as_pose
+from ...scan.sensor.files import write_ply
+from ...scan.units import MILLIMETRES
+from ..destinations import destinations
+from ..inputs import as_cloud, as_model, as_workpiece
 
 _TARGETS: deque[tuple[Part.Shape, Target]] = deque(maxlen=2)
+
+
+class Placed(Protocol):
+    """A scan on its model, however it came there: its points, and its pose as a JSON record."""
+
+    @property
+    def scan(self) -> PointCloud: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True)
@@ -106,13 +114,13 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
     return AlignedScan(replace(cloud.moved(found.T_model_scan, found.scale), unit=unit), found, report)
 
 
-def write_alignment(aligned: AlignedScan, out: str | Path, pose: str | Path | None = None,
+def write_alignment(aligned: Placed, out: str | Path, pose: str | Path | None = None,
                     inputs: Sequence[str | Path] = ()) -> None:
     """Write an aligned scan and its pose: both or none.
 
     Parameters
     ----------
-    aligned : what `align_scan` gave
+    aligned : what `align_scan` gave, or an alignment by datums
     out, pose : files, .ply and .json
     inputs : files that were read and must not be written over
 
@@ -133,7 +141,7 @@ def target_of_shape(shape: Part.Shape) -> Target:
     for known, target in _TARGETS:
         if known.isEqual(shape):
             return target
-    part = workpiece.read(shape)
+    part = as_workpiece(shape)
     target = target_of([part.geometry(index) for index in range(len(part.faces))])
     _TARGETS.appendleft((shape, target))
     return target
