@@ -27,7 +27,7 @@ SOURCES = sorted(path for pattern in ("*.py", "*.sh", "ffds", ".ci/run") for pat
 
 LONGEST, LONGEST_FUNCTION, ROOMIEST = 300, 45, 15
 """Lines of a module and of a function without its docstring, and modules of a folder."""
-ARROWS = {"registration/joint": 80, "registration/rigid": 44}
+ARROWS = {"registration/joint": 75, "registration/rigid": 44}
 """How many arrows there may be between the rooms of a package, its modules and folders: so few that one can keep them
 in mind."""
 WHY_LONG = "# Long because "

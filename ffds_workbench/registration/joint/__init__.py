@@ -5,16 +5,13 @@ Read `solve.register_joint` first. `problem` holds what stays the same while it 
 ``iteration/`` holds the state and one Gauss-Newton step. ``surfaces/`` are the deformed faces, ``data/`` what the scan
 says, ``priors/`` and ``body_field/`` what is assumed, ``linear/`` the sparse system, ``uncertainty/`` the bands.
 ``skins/`` decides which side of a sheet a point shows, `prior_trust` how much the priors count, `lattice_refinement`
-where lattices get finer, `outcome` whether the result is accepted; `live` is the solve of previews,
-`measured_points` that through a few points without a scan.
+where lattices get finer, `outcome` whether the result is accepted; `live` is the solve of previews.
 """
 from .joint_result import EdgeRegistration, JointFace, JointRegistration, SolidMotion
 from .live import LiveJoint
-from .measured_points import MeasuredPart, MeasuredRows, register_points
 from .settings import JointSettings, SensorProfile
 from .solve import register_joint
 from .surfaces import JointPart, SharedEdge
 
 __all__ = ["EdgeRegistration", "JointFace", "JointPart", "JointRegistration", "JointSettings", "LiveJoint",
-           "MeasuredPart", "MeasuredRows", "SensorProfile", "SharedEdge", "SolidMotion", "register_joint",
-           "register_points"]
+           "SensorProfile", "SharedEdge", "SolidMotion", "register_joint"]

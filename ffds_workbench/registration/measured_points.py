@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A part through a few measured points: what they leave open, its stiffness fills in.
 
-The rows of the joint solve without a scan: bending, isometry and thickness of sheets, shared edges, as in `iteration`;
-of each point one row along its direction. How far the priors are held follows from what the points make them cost.
+The rows of the joint solve without a scan: bending, isometry and thickness of sheets, shared edges, as in
+`joint.iteration`; of each point one row along its direction. How far the priors are held follows from what the points
+make them cost.
 """
 from __future__ import annotations
 
@@ -11,15 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Array, Index
-from ..splines import SplineSurface
-from .iteration import ShapeMatrices, State, prior_equations, start
-from .linear import FrontCholesky, NormalEquations
-from .prior_trust import prior_cost, update_prior_trust
-from .priors import COMPONENTS
-from .problem import Problem, make_problem
-from .settings import JointSettings, Stage
-from .surfaces import FacePlaces, JointPart, places_on_faces
+from .arrays import Array, Index
+from .joint.iteration import ShapeMatrices, State, prior_equations, start
+from .joint.linear import FrontCholesky, NormalEquations
+from .joint.prior_trust import prior_cost, update_prior_trust
+from .joint.priors import COMPONENTS
+from .joint.problem import Problem, make_problem
+from .joint.settings import JointSettings, Stage
+from .joint.surfaces import FacePlaces, JointPart, places_on_faces
+from .splines import SplineSurface
 
 _ITERATIONS = 8
 """Gauss-Newton steps (unit: the last ones move by less than a thousandth of the first)."""
