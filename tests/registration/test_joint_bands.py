@@ -13,6 +13,7 @@ from ffds_workbench.brep.joint_part import joint_part
 from ffds_workbench.brep.workpiece import read
 from ffds_workbench.registration.joint import JointSettings
 from ffds_workbench.registration.joint.iteration import add_observations, gauss_newton_step, prior_equations, start
+from ffds_workbench.registration.joint.outcome import summarise
 from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.surfaces import normals
 from ffds_workbench.registration.joint.uncertainty import bands, covariance
@@ -184,3 +185,21 @@ def test_the_band_of_an_edge_holds_95_of_100_curves(problem, ratio):
     assert 100 * inside.mean() == pytest.approx(95.0, abs=0.7)
     if ratio == 1.0:
         assert found == pytest.approx(np.sqrt(chi2.ppf(0.95, 2)) * large * basis, rel=1e-3)
+
+
+def test_a_face_that_is_carried_makes_no_edge_observed():
+    """A block of which the scan shows the bottom and half of the front: the far end of the front is 15 mm from any
+    point, whether or not the top, which holds no points, is said to be carried by its neighbours."""
+    random = np.random.default_rng(3)
+    bottom, front = random.uniform(0, [30, 20], (3000, 2)), random.uniform(0, [15, 8], (600, 2))
+    scan = np.vstack([np.insert(bottom, 2, 0.0, axis=1), np.insert(front, 1, 0.0, axis=1)])
+    scan += random.normal(0, 0.03, scan.shape)
+    shape = Part.makeBox(30.0, 20.0, 8.0)
+    seen = make_problem(joint_part(read(shape)), scan, replace(JointSettings(), spans=5.0), {})
+    far = [index for index, edge in enumerate(shape.Edges)
+           if edge.BoundBox.XMin > 29 and edge.BoundBox.YMax < 1 and edge.BoundBox.ZLength > 7]
+    top = [index for index, face in enumerate(shape.Faces) if face.BoundBox.ZMin > 7]
+    for given in (seen, seen.without_points_on(top)):
+        state = gauss_newton_step(given, given.settings.schedule[0], start(given))
+        edge = summarise(given, state).edges[far[0]]
+        assert edge.flag != "observed" and np.isfinite(edge.bands).all()
