@@ -119,6 +119,17 @@ def test_a_face_that_does_not_follow_its_points(part, scan):
             refuse_unsound(problem, state)
 
 
+def test_a_body_that_moved_farther_than_the_rest(scan):
+    """A block of 8 × 8 mm beside the plate whose top lies 1.2 mm higher than the model's, beyond six times the noise:
+    its points are nothing else's, and no result may leave them beside it."""
+    block = Part.makeBox(8, 8, THICKNESS, FreeCAD.Vector(50, 10, 0))
+    part = joint_part(read(Part.Compound([Part.makeBox(*SIZE, THICKNESS), block])))
+    random = np.random.default_rng(4)
+    top = np.column_stack([random.uniform([50, 10], [58, 18], (320, 2)), THICKNESS + 1.2 + random.normal(0, 0.05, 320)])
+    with pytest.raises(RefusedError, match="leaves Face12 off its scan points, by 1.2 mm"):
+        register_joint(part, np.vstack([scan, top]))
+
+
 def test_a_small_face_that_wanders_is_carried(scan):
     """A boss of 4 × 4 mm on the plate: it may wander, a whole side may not; without its points the rest goes on."""
     boss = Part.makeBox(4, 4, 5, FreeCAD.Vector(18, 13, THICKNESS))

@@ -32,6 +32,7 @@ class Lengths:
     spacing : between neighbouring points of the scan
     noise : standard deviation of the scan's points, and their ``resolution``
     reach : how far the scan may lie from the nominal part
+    farthest : how far its points lie that are compared with the nominal part at all, by the same face
     """
 
     size: float
@@ -39,6 +40,7 @@ class Lengths:
     noise: float
     resolution: float
     reach: float
+    farthest: float
 
     @property
     def start(self) -> float:

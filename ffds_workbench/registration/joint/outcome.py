@@ -79,10 +79,11 @@ def refuse_unsound(problem: Problem, state: State) -> None:
 
 
 def _refuse_off_scan(problem: Problem, state: State) -> None:
-    """Raise RefusedError where scan points cover a face that lies far off them."""
-    noise = problem.lengths.noise
-    before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), problem.lengths.reach).height))
-    found = _all_matched(problem, state.control_points, problem.lengths.reach)
+    """Raise RefusedError where scan points cover a face that lies far off them, be it farther than the solve reaches: a
+    body that moved by more than the rest of the part."""
+    noise, farthest = problem.lengths.noise, problem.lengths.farthest
+    before = np.median(np.abs(_all_matched(problem, np.zeros_like(state.control_points), farthest).height))
+    found = _all_matched(problem, state.control_points, farthest)
     face = problem.face_of_cell[found.cell]
     expected = np.bincount(problem.face_of_cell, problem.area.ravel()) * problem.statistics.density
     enough = np.maximum(_LEAST_JUDGED_COVER * expected * len(problem.sample) / len(problem.scan), _LEAST_JUDGED_POINTS)

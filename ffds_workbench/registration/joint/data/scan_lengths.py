@@ -63,12 +63,13 @@ def find_lengths(lattices: Lattices, cells: SpanGrid, sample: Array, statistics:
         typical = min(typical, float(np.quantile(back, _SEEN)))
     anywhere = BorderDistance(np.where(cells.inside, np.inf, -np.inf), np.zeros((*cells.inside.shape, 2)))
     frames = make_frames(lattices, cells, cells.nominal, np.zeros(len(cells.inside)), anywhere)
-    found = correspond(sample, frames, _FARTHEST * typical)
+    farthest = _FARTHEST * typical
+    found = correspond(sample, frames, farthest)
     beside = _noise_beside(sample[found.point], found, lattices.face_of_span[found.cell // cells.inside.shape[1]])
     noise = max(statistics.noise if statistics.noise < _PLANES_FAIL * beside else beside, statistics.resolution)
     moved = quantile(np.abs(found.height), _MOST_POINTS) if len(found.point) else typical
-    return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution,
-                   max(_REACH * moved, _REACH_IN_NOISES * noise, _LEAST_REACH * size))
+    reach = max(_REACH * moved, _REACH_IN_NOISES * noise, _LEAST_REACH * size)
+    return Lengths(size, 1 / np.sqrt(statistics.density), noise, statistics.resolution, reach, max(reach, farthest))
 
 
 def _noise_beside(points: Array, found: Correspondence, face: Index) -> float:
