@@ -194,6 +194,7 @@ def edge_traces(face: Part.Face, edge: Part.Edge, fractions: Array) -> list[Edge
             traces[side.Orientation] = EdgeTrace(points, _on_curve(curve, first, last, fractions))
     if len(traces) == 2:
         # A face cut out of a closed one may have kept the far curve of a seam that it no longer meets twice.
-        used = {use.Orientation for wire in face.Wires for use in stored_edges(wire, face) if use.isSame(edge)}
+        used = {(use if wire.Orientation == "Forward" else use.reversed()).Orientation
+                for wire in face.Wires for use in stored_edges(wire, face) if use.isSame(edge)}
         traces = {side: trace for side, trace in traces.items() if side in used}
     return list(traces.values())

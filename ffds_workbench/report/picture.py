@@ -72,7 +72,9 @@ def draw(path: Path, title: str, panels: Sequence[Panel]) -> None:
     for column, panel in enumerate(panels):
         axes = figure.add_subplot(grid[0, column])
         coloured = _draw_view(axes, panel, axes_in_view, limit, boxes)
-    bar = figure.colorbar(coloured, cax=figure.add_axes((right + 0.2 / width, 0.36, 0.2 / width, 0.48)), extend="both")
+    legend = figure.add_axes((right + 0.2 / width, 0.36, 0.2 / width, 0.48))
+    legend.grid(False)  # whatever the user's settings of matplotlib say
+    bar = figure.colorbar(coloured, cax=legend, extend="both")
     bar.set_label("deviation, mm (+ outside the material)", color=_INK, fontsize=10)
     bar.outline.set_visible(False)
     bar.ax.tick_params(colors=_MUTED, labelsize=9, length=0)

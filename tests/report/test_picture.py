@@ -2,6 +2,7 @@
 """The picture and the figures beside it."""
 from __future__ import annotations
 
+import matplotlib
 import numpy as np
 import pytest
 from matplotlib.image import imread
@@ -28,7 +29,8 @@ def test_the_view_is_orthonormal_and_on_the_scanned_side(direction):
 
 @pytest.mark.parametrize("panels", [1, 2])
 @pytest.mark.parametrize("spread", [0.0, 1e-9, 0.3, 1e4])
-def test_any_size_of_deviation_is_drawn(tmp_path, panels, spread):
+def test_any_size_of_deviation_is_drawn(tmp_path, monkeypatch, panels, spread):
+    monkeypatch.setitem(matplotlib.rcParams, "axes.grid", True)  # as many a user has it, and the benchmarks' pages
     random = np.random.default_rng(0)
     points = random.uniform(0, 10, (200, 3))
     up, deviations = np.tile([0.0, 0.0, 1.0], (200, 1)), spread * random.normal(size=200)

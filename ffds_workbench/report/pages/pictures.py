@@ -51,8 +51,9 @@ def draw(figure: Figure, scene: ColouredPart, towards: Array,
         axes = figure.add_axes((left + 0.45 * column * width, bottom, 0.43 * width, 0.93 * height))
         _draw_state(axes, scene, getattr(scene, state), axes_towards(towards), scale)
         axes.set_title(title, fontsize=10, color=_INK, loc="left")
-    bar = figure.colorbar(scale, cax=figure.add_axes((left + 0.915 * width, bottom + 0.15 * height, 0.016 * width,
-                                                      0.65 * height)), extend="both")
+    legend = figure.add_axes((left + 0.915 * width, bottom + 0.15 * height, 0.016 * width, 0.65 * height))
+    legend.grid(False)  # whatever the user's settings of matplotlib say
+    bar = figure.colorbar(scale, cax=legend, extend="both")
     bar.set_label("deviation, mm", fontsize=8, color=_INK)
     bar.ax.tick_params(labelsize=8)
 
