@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..benchmark import NAMES
-from . import weld
+from .outputs import make_folder
 from .terminal import ProgressLine
 
 
@@ -76,7 +76,7 @@ def benchmark(options: argparse.Namespace, progress: ProgressLine) -> str:
     from .. import find_freecad
 
     find_freecad.activate()
-    folder = weld.make_folder(options.out)
+    folder = make_folder(options.out)
     measurement = importlib.import_module(f"ffds_workbench.benchmark.{options.name}")
     text = measurement.run(folder, progress, **options.more(options))
     return f"{text or ''}\n\nWritten: {folder}".strip()

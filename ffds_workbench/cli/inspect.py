@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ..brep.model_files.reading import FORMATS
 from ..errors import InputError
 from .inputs import add_model_options, add_registration, read_request
+from .outputs import make_folder
 from .terminal import Progress
-from .weld import make_folder
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -34,6 +32,7 @@ def add(commands: argparse._SubParsersAction) -> None:
 def inspect(options: argparse.Namespace, progress: Progress) -> str:
     """``ffds inspect``: the table to print."""
     from .. import api
+    from ..report import record
 
     measured = _parted(options.measured)
     models = [path for path in measured if path.suffix.lower() in FORMATS]
@@ -44,7 +43,7 @@ def inspect(options: argparse.Namespace, progress: Progress) -> str:
     plan = api.read_plan(options.plan)
     request = read_request(options)
     if models:
-        report = _report(reports[0]) if reports else None
+        report = record.read(reports[0]) if reports else None
         progress(f"Reading {models[0]}")
         found = api.inspect_model(api.read_model(options.model, options.object), api.read_model(models[0]), plan,
                                   report, progress)
@@ -66,12 +65,3 @@ def _parted(paths: Sequence[Path]) -> list[Path]:
         together = bool(plus) and not path.exists() and second.lower().endswith(".json")
         found += [Path(first), Path(second)] if together else [path]
     return found
-
-
-def _report(path: Path) -> Any:
-    try:
-        return json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise InputError(f"The report {path} cannot be read: {error.strerror or error}.") from error
-    except ValueError as error:
-        raise InputError(f"The report {path} is not JSON: name the file that register wrote with --report.") from error

@@ -9,11 +9,12 @@ import secrets
 from pathlib import Path
 
 from ..errors import InputError
+from .outputs import make_folder
 from .terminal import Progress
-from .weld import make_folder
 
 _TOKEN = "FFDS_TOKEN"
 _SHORTEST_TOKEN = 16
+"""Characters of a token that the environment gives (unit: none is guessed over a network)."""
 
 
 def add(commands: argparse._SubParsersAction) -> None:

@@ -13,6 +13,7 @@ from ..output import replacing
 from ..report.page import Step, page
 from . import seams as seam_options
 from .inputs import add_inputs, add_registration, read_inputs, read_request
+from .outputs import make_folder
 from .terminal import Progress
 
 if TYPE_CHECKING:
@@ -93,15 +94,6 @@ def read_robot(words: Sequence[str]) -> tuple[str | None, list[str]]:
     dialects = [word for word in words if word in ALL_DIALECTS]
     name = " ".join(word for word in words if word not in ALL_DIALECTS)
     return name or None, dialects or list(ALL_DIALECTS if name else DIALECTS)
-
-
-def make_folder(path: Path) -> Path:
-    """The folder, made where it is missing (InputError where that cannot be)."""
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"The output folder {path} cannot be made: {error.strerror}.") from error
-    return path
 
 
 def write_chain(result: api.Result, wanted: Wanted, folder: Path, as_built: str, inputs: Sequence[Path],

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import InputError
 from ..registration.face import FaceRegistration
 from ..registration.joint import EdgeRegistration, JointFace, JointRegistration, SensorProfile
 from ..scan.cloud import PointCloud
@@ -99,3 +100,13 @@ def write(record: Mapping[str, Any], path: Path) -> None:
     """Write a report as JSON text, with the versions that it was made with; see resources/docs/report.schema.json."""
     text = json.dumps({**record, "versions": versions()}, indent=1, ensure_ascii=False, allow_nan=False)
     path.write_text(text + "\n", "utf-8")
+
+
+def read(path: Path) -> Any:
+    """What the file of a registration's report holds (InputError where it cannot be read or is not JSON)."""
+    try:
+        return json.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise InputError(f"The report {path} cannot be read: {error.strerror or error}.") from error
+    except ValueError as error:
+        raise InputError(f"The report {path} is not JSON: name the file that register wrote with --report.") from error

@@ -2,7 +2,6 @@
 """How certain a seam is: observed or inferred, and its 95 % band, from the registration's report."""
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..registration.arrays import Array
+from ..report import record
 from .chains import Stretch
 from .stations import Stations
 
@@ -64,13 +64,7 @@ def read_trust(path: Path) -> Trust:
     ------
     InputError : the file is missing or no such report
     """
-    try:
-        report = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise InputError(f"The report {path} cannot be read: {error.strerror}.") from error
-    except ValueError as error:
-        raise InputError(f"The report {path} is not JSON: name the file that register wrote with --report.") from error
-    return trust_of(report, f"report {path}")
+    return trust_of(record.read(path), f"report {path}")
 
 
 def trust_of(report: object, name: str = "registration's report") -> Trust:
