@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..scan.units import MILLIMETRES
+from .outputs import written
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
@@ -52,8 +53,7 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     model = api.read_model(options.model, options.object)
     aligned = _aligned(options, model, scan, progress)
     api.write_alignment(aligned, options.out, options.pose, inputs)
-    names = ", ".join(str(path) for path in (options.out, options.pose) if path is not None)
-    return f"{aligned.table()}\n\nWritten: {names}"
+    return f"{aligned.table()}\n\n{written(options.out, options.pose)}"
 
 
 def _aligned(options: argparse.Namespace, model: api.Model, scan: api.PointCloud, progress: ProgressLine

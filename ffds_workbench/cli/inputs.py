@@ -71,6 +71,11 @@ def read_inputs(options: argparse.Namespace, progress: Progress) -> tuple[api.Mo
     return api.read_model(options.model, options.object), scan
 
 
+def take_negative_numbers(command: argparse.ArgumentParser) -> None:
+    """Let "-1e-1" and "-5,0,0" pass as values of a command's options: argparse knows plain negative numbers only."""
+    command._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
+
+
 def number(text: str) -> float:
     """The number that a text is."""
     try:

@@ -18,8 +18,9 @@ from .. import RESOURCES, __version__
 from ..brep.model_files import reading
 from ..errors import FfdsError, InputError, RefusedError
 from . import align, benchmark, inspect, prepare, seams, sensor, series, serve, simulate, weld
-from .inputs import add_inputs, add_registration, direction, read_inputs, read_request
+from .inputs import add_inputs, add_registration, direction, read_inputs, read_request, take_negative_numbers
 from .morphing import compensate, field, morph
+from .outputs import make_folder, read_back, written
 from .terminal import Finished, ProgressLine, quiet_libraries
 
 FAILED, INTERRUPTED = 3, 130
@@ -118,6 +119,7 @@ def _add_register(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--picture", type=Path, metavar="OUT.png", help="the deviation before and after")
     command.add_argument("--html", type=Path, metavar="OUT.html", help="the report as one page, with the part to turn")
     command.add_argument("--pdf", type=Path, metavar="OUT.pdf", help="the report as PDF")
+    take_negative_numbers(command)
     command.add_argument("--side", type=direction, action="append", default=[], metavar="X,Y,Z",
                          help="from the part to the viewer of a picture in HTML and PDF; may be repeated (default: the "
                               "side that was scanned, and the other one)")
@@ -152,10 +154,9 @@ def register(options: argparse.Namespace, progress: ProgressLine) -> str:
     api.check_model_output(options.out, model)
     result = api.run(request, model, scan, progress)
     progress(f"Writing {options.out}")
-    written = api.write(result, options.out, options.report, options.picture, inputs)
+    certificate = api.write(result, options.out, options.report, options.picture, inputs)
     api.write_pages(result, options.html, options.pdf, inputs, options.side)
-    read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
-    return "\n\n".join([result.table(), read_back, _written(*outputs)])
+    return "\n\n".join([result.table(), read_back(certificate), written(*outputs)])
 
 
 def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
@@ -167,15 +168,14 @@ def deviation(options: argparse.Namespace, progress: ProgressLine) -> str:
     model, scan = read_inputs(options, progress)
     result = api.deviation(model, scan, progress)
     api.write_deviation(result, options.report, options.picture, inputs)
-    written = _written(options.report, options.picture)
-    return result.table() + (f"\n\n{written}" if written else "")
+    return "\n\n".join(filter(None, [result.table(), written(options.report, options.picture)]))
 
 
 def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
     """``ffds demo``: the main job on the example, and a weld along the rim of its end face."""
     from .. import api
 
-    folder = weld.make_folder(options.out)
+    folder = make_folder(options.out)
     example = RESOURCES / "examples"
     progress("Reading the example")
     model = api.read_model(example / "bracket.step")
@@ -184,8 +184,3 @@ def demo(options: argparse.Namespace, progress: ProgressLine) -> str:
     wanted = weld.Wanted(_DEMO_SEAM, None, True, api.RobotSettings(), api.SeamSettings(), api.SeamLimits())
     text = weld.write_chain(result, wanted, folder, "bracket_as_built.step", (), progress)
     return f"{text}\n\nWritten: {folder / weld.PAGE} and what it shows"
-
-
-def _written(*paths: Path | None) -> str:
-    names = [str(path) for path in paths if path is not None]
-    return f"Written: {', '.join(names)}" if names else ""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import re
 from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import InputError
 from ..scan.units import MILLIMETRES
+from .inputs import take_negative_numbers
+from .outputs import written
 from .terminal import Progress
 
 
@@ -33,8 +34,7 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--view", type=_numbers(3), metavar="X,Y,Z",
                          help="where the sensor was, mm (default: at the origin of each scan's own coordinates)")
     command.add_argument("--spacing", type=float, metavar="MM", help="average the points in cubes of this edge")
-    # A box that begins with -1 is a value, not an option.
-    command._negative_number_matcher = re.compile(r"^-[\d.]")
+    take_negative_numbers(command)
     command.set_defaults(run=run)
 
 
@@ -58,8 +58,7 @@ def run(options: argparse.Namespace, progress: Progress) -> str:
         remove_clutter=options.remove_clutter, remove_outliers=options.remove_outliers, normals=options.normals,
         view=options.view, spacing=options.spacing)
     api.write_prepared(prepared, options.out, options.report, inputs)
-    names = ", ".join(str(path) for path in (options.out, options.report) if path is not None)
-    return f"{prepared.table()}\n\nWritten: {names}"
+    return f"{prepared.table()}\n\n{written(options.out, options.report)}"
 
 
 def _near(words: list[str] | None) -> tuple[float | None, Path | None]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from .inputs import take_negative_numbers
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
@@ -44,8 +44,7 @@ def _add_seams(commands: argparse._SubParsersAction) -> None:
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add what says which seams, how to weld them, what passes, and for which tool and base."""
-    # Lets "--start -5,0,0" pass: argparse knows single negative numbers only.
-    command._negative_number_matcher = re.compile(r"^-[\d.][\d.,eE+-]*$")
+    take_negative_numbers(command)
     which = command.add_argument_group("which seams")
     which.add_argument("--edge", nargs="+", action="extend", default=[], metavar="EdgeN",
                        help="edges, joined where they continue tangentially; with --auto, only the joints along them")
@@ -149,7 +148,7 @@ def seams(options: argparse.Namespace, progress: ProgressLine) -> str:
     progress("Finding and measuring the seams")
     plan = api.plan_seams(as_built, options.edge, options.auto, nominal, options.chain, options.bands, settings, limits)
     planned = None if cell is None else api.plan_robot(plan, cell, robot, options.bands, options.process,
-                                                           options.searches == "auto", progress)[1]
+                                                       options.searches == "auto", progress)[1]
     progress(f"Writing {options.out[0]}")
     notes = [*plan.notes, *api.write_seams(plan, options.out, robot, options.report, options.picture, inputs, planned)]
     return "\n\n".join([plan.table(), *(["\n".join(f"Note: {note}" for note in notes)] if notes else []),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from .inputs import direction, number
+from .inputs import direction, number, take_negative_numbers
+from .outputs import written
 from .terminal import ProgressLine
 
 if TYPE_CHECKING:
@@ -39,8 +39,7 @@ def add(commands: argparse._SubParsersAction) -> None:
     command.add_argument("--pose-error", type=_numbers, default=(0.0,), metavar="MM[,RAD]",
                          help="how badly the shots fit together: shift, and rotation, per axis")
     command.add_argument("--seed", type=int, default=0, metavar="N", help="the same seed gives the same scan")
-    # A direction such as -1,0,1 is a value, not an option.
-    command._negative_number_matcher = re.compile(r"^-[\d.]")
+    take_negative_numbers(command)
     command.set_defaults(run=run)
 
 
@@ -72,8 +71,7 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     result = api.simulate(model, sensor)
     api.write_simulation(result, options.out, options.truth, [options.model])
     shots = f" from {len(sensor.views)} views" if sensor.views else ""
-    names = ", ".join(str(path) for path in (options.out, options.truth) if path is not None)
-    return f"{len(result.scan.points)} points{shots}\n\nWritten: {names}"
+    return f"{len(result.scan.points)} points{shots}\n\n{written(options.out, options.truth)}"
 
 
 def _numbers(text: str) -> tuple[float, ...]:

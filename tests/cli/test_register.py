@@ -14,8 +14,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ffds_workbench.cli.main import command_line
+
 ROOT = Path(__file__).resolve().parents[2]
 FIGURES = {"mean", "rms", "p95", "max", "signed_mean"}
+
+
+@pytest.mark.parametrize("words", [["register", "m.step", "s.ply", "--out", "a.step", "--side", "-1,0,0.5"],
+                                   ["simulate", "m.step", "--out", "s.ply", "--view", "-1,0,0.5"]])
+def test_a_direction_may_begin_with_a_minus(words):
+    options = command_line().parse_args(words)
+    assert (options.side if words[0] == "register" else options.view) == [(-1.0, 0.0, 0.5)]
 
 
 def test_writes_model_report_and_picture(ffds, plate, tmp_path):

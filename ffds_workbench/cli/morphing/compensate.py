@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 
 from ...registration.request import ALIGN, ISOMETRY
 from ...scan.units import MILLIMETRES
+from ..inputs import take_negative_numbers
+from ..outputs import read_back, written
 from ..terminal import ProgressLine
 
 
 def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     command = commands.add_parser("compensate", help="the model of the tool whose parts come out as the nominal model")
-    # Lets "--factor -1e-1" pass: argparse knows plain negative numbers only.
-    command._negative_number_matcher = re.compile(r"^-[\d.][\d.eE+-]*$")
+    take_negative_numbers(command)
     command.add_argument("model", type=Path, metavar="NOMINAL", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("scan", type=Path, nargs="+", metavar="SCAN",
                          help="one scan of each part: .ply .pcd .xyz .asc .txt .csv .pts .e57 .stl .las .laz or .obj")
@@ -54,7 +54,5 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     result = api.compensate(model, scans, options.factor, options.previous, earlier, progress, freeze=options.fixed,
                             isometry=options.isometry, align=options.align)
     progress(f"Writing {options.out}")
-    written = api.write_deformed(result, options.out, options.report, inputs)
-    read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
-    names = ", ".join(str(path) for path in (options.out, options.report) if path is not None)
-    return f"{result.table()}\n\n{read_back}\n\nWritten: {names}"
+    certificate = api.write_deformed(result, options.out, options.report, inputs)
+    return "\n\n".join([result.table(), read_back(certificate), written(options.out, options.report)])

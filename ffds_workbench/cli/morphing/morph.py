@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 
+from ..inputs import take_negative_numbers
+from ..outputs import read_back, written
 from ..terminal import ProgressLine
 
 
 def add(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     command = commands.add_parser("morph", help="deform a model by a displacement field, with its topology kept")
-    # Lets "--factor -1e-1" pass: argparse knows plain negative numbers only.
-    command._negative_number_matcher = re.compile(r"^-[\d.][\d.eE+-]*$")
+    take_negative_numbers(command)
     command.add_argument("model", type=Path, metavar="MODEL", help=".step .stp .iges .igs .brep or .FCStd")
     command.add_argument("--object", metavar="LABEL", help="the object of an .FCStd that holds several")
     command.add_argument("--field", type=Path, required=True, metavar="FIELD.csv",
@@ -43,7 +43,5 @@ def run(options: argparse.Namespace, progress: ProgressLine) -> str:
     api.check_model_output(options.out, model)
     result = api.morph(model, field, options.factor, options.tolerance, options.ignore, progress)
     progress(f"Writing {options.out}")
-    written = api.write_deformed(result, options.out, options.report, inputs)
-    read_back = "\n".join([written.line(), *(f"Note: {note}" for note in written.notes)])
-    names = ", ".join(str(path) for path in (options.out, options.report) if path is not None)
-    return f"{result.table()}\n\n{read_back}\n\nWritten: {names}"
+    certificate = api.write_deformed(result, options.out, options.report, inputs)
+    return "\n\n".join([result.table(), read_back(certificate), written(options.out, options.report)])
