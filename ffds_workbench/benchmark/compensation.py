@@ -15,6 +15,7 @@ import Part
 
 from .. import RESOURCES, api
 from ..brep import workpiece
+from ..brep.continuity import side_lengths
 from ..registration.arrays import Array
 from ..registration.trims import inside_polylines
 from .pages import page
@@ -24,12 +25,14 @@ Progress = Callable[[str], None]
 Row = dict[str, Any]
 
 _TRIALS, _NOISE = 5, 0.05
+"""Tools, one after the other, and standard deviation of the scan's noise in mm (unit)."""
 _SPRINGBACK, _RESPONSE = 2.0, 0.15
-"""Largest spring-back of the nominal tool in mm, and the share of a change of the tool that springs back besides."""
+"""Largest spring-back of the nominal tool in mm, and the share of a change of the tool that springs back besides
+(unit)."""
 _PARTS, _SCATTER = 5, 0.3
-"""Parts of one tool, and the standard deviation in mm at the end of the part by which each bends differently."""
+"""Parts of one tool, and the standard deviation in mm at the end of the part by which each bends differently (unit)."""
 _SPACING = 0.9
-"""Distance of the scan points in mm."""
+"""Distance of the scan points in mm (unit)."""
 
 
 def run(folder: Path, progress: Progress) -> str:
@@ -124,10 +127,7 @@ def _normals(face: workpiece.WorkpieceFace, uv: Array) -> Array:
 def _spread(face: workpiece.WorkpieceFace, spacing: float) -> Array:
     """Parameters (n, 2) on a face, about evenly spaced."""
     box = face.box
-    coarse = np.linspace(box.u0, box.u1, 9), np.linspace(box.v0, box.v1, 9)
-    grid = face.on_grid(*coarse)
-    counts = [max(2, int(np.linalg.norm(np.diff(grid, axis=axis), axis=2).sum(axis=axis).max() / spacing))
-              for axis in (0, 1)]
+    counts = [max(2, int(length / spacing)) for length in side_lengths(face)]
     u, v = ((np.arange(count) + 0.5) / count for count in counts)
     uv = np.stack(np.meshgrid(box.u0 + u * (box.u1 - box.u0), box.v0 + v * (box.v1 - box.v0), indexing="ij"), axis=-1)
     uv = uv.reshape(-1, 2)

@@ -18,7 +18,7 @@ from .model_pair import FacePair, refuse_other_topology
 
 Displacements = Mapping[int, FaceDisplacement]
 _PLACES = 15
-"""Places in each direction of a face where displacements are compared."""
+"""Places in each direction of a face where displacements are compared (unit: time)."""
 
 
 @dataclass(frozen=True)

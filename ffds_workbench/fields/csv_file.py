@@ -2,11 +2,13 @@
 """FIELD.csv: ``x,y,z,dx,dy,dz`` and, where known, ``sigma``, in mm; ``#`` begins a comment.
 
 A comment that is the name of a face alone, ``# Face6``, says on which face the rows after it lie; ``#`` alone ends it.
+numpy's readers skip such comments and take one separator, and do not say which row is wrong: hence the one here.
 """
 from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 
@@ -22,27 +24,26 @@ _PARTED = re.compile(r"[,;\s]+")
 
 def write_field(field: VectorField, path: str | Path) -> None:
     """Write a field (RefusedError where the disk is full)."""
-    with replacing(Path(path)) as (temporary,):
-        temporary.write_text(_text(field), "utf-8")
+    with replacing(Path(path)) as (temporary,), temporary.open("w", encoding="utf-8", newline="") as stream:
+        _write(field, stream)
 
 
-def _text(field: VectorField) -> str:
+def _write(field: VectorField, stream: TextIO) -> None:
     columns = [field.positions, field.displacements]
     names = list(COLUMNS)
     if field.sigma is not None:
         columns.append(field.sigma[:, None])
         names.append(SIGMA)
-    table = np.hstack(columns)
-    lines = [",".join(names)]
+    table = np.hstack(columns) + 0.0  # never -0
+    stream.write(",".join(names) + "\n")
     faces = np.zeros(len(field), dtype=int) if field.faces is None else field.faces
     ends = [*(np.flatnonzero(np.diff(faces)) + 1).tolist(), len(field)]
     start = 0
     for end in ends:
         if faces[start] or start:
-            lines.append(f"# Face{faces[start]}" if faces[start] else "#")
-        lines += [",".join(f"{value + 0.0:.10g}" for value in row) for row in table[start:end].tolist()]
+            stream.write(f"# Face{faces[start]}\n" if faces[start] else "#\n")
+        np.savetxt(stream, table[start:end], "%.10g", ",")
         start = end
-    return "\n".join(lines) + "\n"
 
 
 def read_field(path: str | Path) -> VectorField:

@@ -23,7 +23,7 @@ FORMATS = ".frd .vtu .vtk .unv"
 _NAMES = re.compile(rb'(<DataArray[^>]*\bName=")(displacements?|disp|u|displacementvectors)(")', re.IGNORECASE)
 _VTK_NAMES = re.compile(rb"^(VECTORS\s+)(displacements?|disp|u|displacementvectors)(\s)", re.IGNORECASE | re.MULTILINE)
 _DISPLACEMENT_RESULT = 8
-"""Type of a universal file's result that is a displacement."""
+"""Type of a universal file's result that is a displacement (unit: of the SDRC I-DEAS format)."""
 
 Steps = list[tuple[Array, Array]]
 """Positions and displacements (n, 3) of every step."""

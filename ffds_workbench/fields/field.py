@@ -17,7 +17,7 @@ _EXACTNESS, _LEAST_EXACTNESS = 5e-7, 2e-5
 """What a field leaves of the vectors that it goes through: over the size of the part, and in mm (unit: twice what a
 rebuilt face leaves of its displacement)."""
 _AROUND = 13
-"""Vectors around one, itself among them, that tell what it should be like."""
+"""Vectors around one, itself among them, that tell what it should be like (unit: three times what a plane needs)."""
 _MEDIAN_LENGTH = 1.538
 """Median length of a vector of three normal components of standard deviation 1 (theory: chi of three)."""
 
@@ -102,5 +102,5 @@ class VectorField:
     def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> VectorField:
         """Only the places that an index or mask array, ``which`` (n,), tells."""
         return VectorField(self.positions[which], self.displacements[which],
-                     None if self.sigma is None else self.sigma[which],
-                     None if self.faces is None else self.faces[which])
+                           None if self.sigma is None else self.sigma[which],
+                           None if self.faces is None else self.faces[which])

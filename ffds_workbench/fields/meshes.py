@@ -11,6 +11,10 @@ from ..registration.arrays import Array
 from ..scan.formats.stl import triangles
 from .field import VectorField
 
+_SAME_CORNER = 1e-3
+"""How far what is one corner of the nominal mesh may be apart in the other, over the size of the part (unit: above
+single precision, below an edge of a mesh)."""
+
 
 def field_between_meshes(nominal: Path, displaced: Path) -> VectorField:
     """How the corners of one STL mesh move to those of another one.
@@ -27,7 +31,7 @@ def field_between_meshes(nominal: Path, displaced: Path) -> VectorField:
     moved = (after - before)[first]
     apart = np.linalg.norm((after - before) - moved[number.ravel()], axis=1).max()
     size = float(np.linalg.norm(np.ptp(places, axis=0)))
-    if apart > 1e-3 * size:
+    if apart > _SAME_CORNER * size:
         raise InputError(f"The meshes have not the same numbering: what is one corner in {nominal} is up to "
                          f"{apart:.3g} mm apart in {displaced}.")
     return VectorField(places, moved)

@@ -8,6 +8,7 @@ import numpy as np
 import Part
 
 from ..brep import topology
+from ..brep.continuity import side_lengths
 from ..brep.rebuilt_faces import spline_surface
 from ..brep.workpiece import Workpiece, WorkpieceFace
 from ..errors import InputError
@@ -16,12 +17,15 @@ from ..registration.trims import inside_trims
 from .field import VectorField
 
 _SPACINGS_PER_SIZE = 60.0
-"""Places on the size of the part, from one to the next."""
+"""Places along an edge or a side that is as long as the part is large, at first (unit: time)."""
 _LEAST_LINES, _LARGEST_LINES = 5, 129
+"""Fewest and most places along an edge or a side of a face (unit: time and memory)."""
 _TOLD = 2e-5
-"""Of the size of the part: a displacement that places half as dense tell to this needs none denser."""
+"""Of the size of the part: a displacement that places half as dense tell to this needs none denser (unit:
+far below the noise of scanners)."""
 _ON_EDGE = 1e-3
-"""How far from its own edge, over the size of the part, an as-built face may have that edge's parameters."""
+"""How far from its own edge, over the size of the part, an as-built face may have that edge's parameters
+(unit: above the tolerances of files)."""
 
 
 @dataclass(frozen=True)
@@ -112,8 +116,7 @@ class FacePair:
     def inside(self) -> _Places:
         """Within the trims, on a grid that follows how much the displacement varies."""
         box = self.before.box
-        sides = _side_lengths(self.before)
-        counts = [_lines(side, self.size) for side in sides]
+        counts = [_lines(side, self.size) for side in side_lengths(self.before)]
         while True:
             u = np.linspace(box.u0, box.u1, counts[0])
             v = np.linspace(box.v0, box.v1, counts[1])
@@ -131,21 +134,16 @@ class FacePair:
         return _Places(places.before[within], places.after[within])
 
 
-def _side_lengths(face: WorkpieceFace) -> list[float]:
-    """Length in mm of the longest lines along u and along v."""
-    box = face.box
-    grid = face.on_grid(np.linspace(box.u0, box.u1, 9), np.linspace(box.v0, box.v1, 9))
-    return [float(np.linalg.norm(np.diff(grid, axis=axis), axis=2).sum(axis=axis).max()) for axis in (0, 1)]
-
-
 def _lines(length: float, size: float) -> int:
     return int(np.clip(np.ceil(length / size * _SPACINGS_PER_SIZE) + 1, _LEAST_LINES, _LARGEST_LINES))
 
 
 def _refined(count: int, moved: Array, tolerance: float) -> int:
     """Twice as many lines where cubics through every second one do not tell the others: moved (lines, n, 3)."""
-    if count > _LARGEST_LINES // 2 or len(moved) < 9:
-        return count if count > _LARGEST_LINES // 2 else 2 * count - 1
+    if count > _LARGEST_LINES // 2:
+        return count
+    if len(moved) < 9:
+        return 2 * count - 1
     known = moved[::2]
     told = (9.0 * (known[1:-2] + known[2:-1]) - known[:-3] - known[3:]) / 16.0
     off = np.linalg.norm(told - moved[3:-2:2][: len(told)], axis=2).max()

@@ -14,6 +14,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from ..brep.continuity import side_lengths
 from ..brep.face_displacement import FaceDisplacement
 from ..brep.workpiece import Workpiece, WorkpieceFace
 from ..errors import InputError
@@ -22,14 +23,17 @@ from ..registration.space import SpaceField
 from .field import VectorField
 
 _STILL = 1e-9
-"""A face stays as it is where nothing of it moves by more than this (mm)."""
+"""A face stays as it is where nothing of it moves by more than this (mm; unit: far below what the fit of a surface
+leaves)."""
 _LINES = 25
-"""Most lines that seed a face's lattice: from there on it is refined where it has to be."""
+"""Most lines that seed a face's lattice: from there on it is refined where it has to be (unit: time)."""
 _CELLS_PER_LINE = 4.0
+"""Cells of the field in space from one of these lines to the next (unit: time)."""
 _AROUND = 17
 """Vectors around one, itself among them, that tell what it should be like (unit: half of them may be wild)."""
 _FARTHEST = 0.25
-"""Over the size of the part: vectors farther from it belong to another part, or to one that stands elsewhere."""
+"""Over the size of the part: vectors farther from it belong to another part, or to one that stands elsewhere (unit:
+fields of meshes may reach beyond the model)."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +42,9 @@ class Misses:
 
     Attributes
     ----------
-    positions : (n, 3) of the vectors that were used, in mm
-    distance : (n,) of the moved places from where the vectors lead, in mm
+    positions : (n, 3) of all vectors, in mm
+    distance : (n,) of the moved places from where the vectors lead, in mm, before the factor; of vectors that move no
+        body, their length
     ignored : (n,) whether a vector was left out
     """
 
@@ -100,7 +105,7 @@ def displacements(part: Workpiece, field: VectorField, factor: float = 1.0, igno
     _refuse_elsewhere(part, field)
     ignored = _least_agreeing(field, ignore)
     used = field.take(~ignored) if ignored.any() else field
-    misses = np.zeros(len(field))
+    misses = np.linalg.norm(field.displacements, axis=1)
     moved: dict[int, FaceDisplacement] = {}
     for faces, rows in _bodies(part, used):
         in_space = used.take(rows).in_space if len(rows) < len(used) else used.in_space
@@ -168,10 +173,7 @@ def _face_displacement(face: WorkpieceFace, field: SpaceField) -> FaceDisplaceme
     """How a field moves a face; None where nothing of it moves."""
     box = face.box
     sides, lines = ((box.u0, box.u1), (box.v0, box.v1)), []
-    coarse = [np.linspace(*side, 9) for side in sides]
-    grid = face.on_grid(*coarse)
-    for axis, side in enumerate(sides):
-        length = float(np.linalg.norm(np.diff(grid, axis=axis), axis=2).sum(axis=axis).max())
+    for side, length in zip(sides, side_lengths(face), strict=True):
         count = int(np.clip(np.ceil(length / (_CELLS_PER_LINE * field.cell)), 1, _LINES))
         lines.append(np.linspace(*side, count + 1)[1:-1])
     dense = [np.linspace(*side, 4 * (len(own) + 1) + 9) for side, own in zip(sides, lines, strict=True)]

@@ -14,10 +14,12 @@ from ..registration.motions import apply
 from .field import VectorField
 
 _SAME_PLACES = 1e-6
-"""Places nearer than this (mm) are one."""
+"""Places nearer than this (mm) are one (unit: of a file's digits)."""
 _REACH = 3.0
 """How far smoothing looks, in standard deviations of its weights (theory: beyond lies a hundredth of them)."""
 _MOST_NEIGHBOURS = 400
+"""Vectors that smoothing looks at around one, at most (unit: memory); where they lie denser than some 14 to the
+square of the length, fewer are averaged than its weights reach."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,8 @@ class FieldMean:
     Attributes
     ----------
     common : what all have in common; its sigma is the standard deviation of the mean
-    scatter : (n,) standard deviation in mm of one field about it, along the direction in which it is largest
+    scatter : (n,) standard deviation in mm of one field about it, along the direction in which it is
+        largest; of a single field its sigma, 0 where unknown
     """
 
     common: VectorField
@@ -46,21 +49,18 @@ def difference(first: VectorField, second: VectorField) -> VectorField:
 
 def _combined(first: VectorField, second: VectorField, sign: float) -> VectorField:
     vectors = first.displacements + sign * at_places(second, first.positions)
-    if first.sigma is None or second.sigma is None or not _same_places(first, second):
+    if first.sigma is None or second.sigma is None or not _same_places(first.positions, second.positions):
         return replace(first, displacements=vectors)
     return replace(first, displacements=vectors, sigma=np.hypot(first.sigma, second.sigma))
 
 
 def at_places(field: VectorField, places: Array) -> Array:
     """A field's displacements at places (n, 3): its own vectors where they are its own places."""
-    if field.positions.shape == places.shape and np.abs(field.positions - places).max() < _SAME_PLACES:
-        return field.displacements
-    return field.at(places)
+    return field.displacements if _same_places(field.positions, places) else field.at(places)
 
 
-def _same_places(first: VectorField, second: VectorField) -> bool:
-    return (first.positions.shape == second.positions.shape
-            and bool(np.abs(first.positions - second.positions).max() < _SAME_PLACES))
+def _same_places(first: Array, second: Array) -> bool:
+    return first.shape == second.shape and bool(np.abs(first - second).max() < _SAME_PLACES)
 
 
 def mean(fields: Sequence[VectorField]) -> FieldMean:
@@ -77,10 +77,15 @@ def mean(fields: Sequence[VectorField]) -> FieldMean:
     common = values.mean(axis=0)
     if count == 1:
         return FieldMean(first, np.zeros(len(first)) if first.sigma is None else first.sigma)
-    apart = values - common
-    spread = np.einsum("fni,fnj->nij", apart, apart) / (count - 1)
-    scatter = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, -1], 0.0))
+    scatter = largest_scatter(values)
     return FieldMean(replace(first, displacements=common, sigma=scatter / np.sqrt(count)), scatter)
+
+
+def largest_scatter(vectors: Array) -> Array:
+    """Standard deviation (n,) of ``vectors`` (parts, n, 3) of some parts, in the direction where it is largest."""
+    apart = vectors - vectors.mean(axis=0)
+    spread = np.einsum("fni,fnj->nij", apart, apart) / (len(vectors) - 1)
+    return np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, -1], 0.0))
 
 
 def scaled(field: VectorField, factor: float | Sequence[float]) -> VectorField:

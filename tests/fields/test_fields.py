@@ -247,6 +247,15 @@ def test_bodies_that_touch_nowhere_move_apart():
     assert found.shape.Solids[1].BoundBox.XMax == pytest.approx(19.5, abs=1e-4)
 
 
+def test_vectors_that_move_no_body_are_missed_by_their_length():
+    shape = Part.makeCompound([Part.makeBox(20, 20, 5), Part.makeBox(20, 20, 5, FreeCAD.Vector(0, 0, 9))])
+    places = np.array([[0, 0, 0], [20, 0, 0], [0, 20, 0], [0, 0, 5], [10, 10, 14.0]])
+    field = api.VectorField(places, np.tile([0.5, 0, 0], (5, 1)), faces=np.array([1, 1, 1, 1, 99]))
+    found = api.morph(shape, field, tolerance=0.1)
+    assert found.morphing.misses.distance == pytest.approx([0, 0, 0, 0, 0.5], abs=1e-3)
+    assert found.beyond.tolist() == [[10, 10, 14, 0.5]]
+
+
 def test_other_models_and_other_places_are_refused(nominal, field):
     with pytest.raises(InputError, match="not the same topology"):
         api.field_of_models(nominal, Part.makeBox(1, 1, 1))

@@ -21,15 +21,16 @@ from ...brep.model_files import Model
 from ...brep.workpiece import Workpiece
 from ...errors import InputError, RefusedError
 from ...fields.combination import Displacements, PlacesOnFace, at_places, between_models, places_of, weighted_sum
+from ...fields.operations import largest_scatter
 from ...registration.arrays import Array
 from ...registration.request import RegistrationRequest
 from ...report import record, table
 from ...report.stopwatch import Progress, Stopwatch
 from ...scan.cloud import PointCloud
-from ..placing import align_scan
 from ..certified import CertifiedModel, certified
-from ..inputs import as_cloud, as_model, as_request, check_place
+from ..inputs import as_cloud, as_model, as_request, as_workpiece, check_place
 from ..methods import find_deformation
+from ..placing import align_scan
 
 Scans = Sequence[PointCloud | np.ndarray | str | Path]
 
@@ -134,7 +135,7 @@ def compensate(model: Model | Part.Shape | str | Path | Any, scans: Scans, facto
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the models"):
         nominal = as_model(model)
-        part = workpiece.read(nominal.shape)
+        part = as_workpiece(nominal.shape)
         tool = {} if previous is None else between_models(part, workpiece.read(as_model(previous).shape))
         places = places_of(part)
     trial = _trial(nominal, part, places, scans, request, watch)
@@ -173,9 +174,7 @@ def _scatter(values: Sequence[Array]) -> Array:
     """Standard deviation of vectors (n, 3) of several parts, along the direction in which it is largest: (n,)."""
     if len(values) == 1:
         return np.zeros(len(values[0]))
-    apart = np.array(values) - np.mean(values, axis=0)
-    spread = np.einsum("fni,fnj->nij", apart, apart) / (len(values) - 1)
-    return np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, -1], 0.0)) if len(apart[0]) else np.zeros(0)
+    return largest_scatter(np.array(values))
 
 
 def _sizes(vectors: Array) -> dict[str, float] | None:

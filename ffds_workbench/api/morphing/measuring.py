@@ -26,10 +26,13 @@ from ..inputs import as_model
 
 _NORMAL_COLUMNS = ("x", "y", "z", "nx", "ny", "nz", "deviation")
 _USUAL_SIGMA = 0.01
-"""Standard deviation in mm of points that come without one: a measuring machine's."""
+"""Standard deviation in mm of points that come without one (unit: a measuring machine's)."""
 _FARTHEST = 0.02
-"""Over the size of the part, beside its deviation: a point farther from the part was measured on something else."""
+"""Over the size of the part, beside its deviation: a point farther from the part was measured on something else
+(unit)."""
 _CELLS, _EDGE_PLACES = 48, 21
+"""Cells along a side of a face, in the nearest of which a point is looked for, and places of the field along an edge
+(unit: time)."""
 
 
 def field_of_points(model: Model | Part.Shape | str | Path | Any, points: str | Path) -> VectorField:

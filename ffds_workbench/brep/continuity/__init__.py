@@ -4,6 +4,7 @@ the `local_field` in space that carries the neighbours of edited faces along (wi
 `edge_samples`, `held_edges`).
 """
 from .edge_closing import closing_displacements
+from .edge_samples import side_lengths
 from .local_field import local_displacements
 
-__all__ = ["closing_displacements", "local_displacements"]
+__all__ = ["closing_displacements", "local_displacements", "side_lengths"]
