@@ -18,9 +18,11 @@ from ..report.stopwatch import Stopwatch
 
 BOOLEAN_CHECK_SECONDS = 10.0
 """Processor time that the check of a shape for Boolean operations, which runs beside the other work, may take before
-the certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model."""
-SURFACE_TOLERANCE = 1e-5
-"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement."""
+the certificate goes without it: it can take minutes. Only what asks for the certificate waits for it, not the model
+(unit: what one waits for a report)."""
+REBUILD_TOLERANCE = 1e-5
+"""Largest distance in mm of a rebuilt face from the nominal surface plus its displacement (unit: far below the noise of
+scanners; looser than `rebuild` is by itself, and faster)."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,7 @@ def certified(nominal: Model, part: Workpiece, displacements: Mapping[int, FaceD
     RefusedError : the result would not be valid, or would have lost something
     """
     with watch.stage("rebuild", "Rebuilding the model"):
-        shape = rebuild(part, displacements, SURFACE_TOLERANCE)
+        shape = rebuild(part, displacements, REBUILD_TOLERANCE)
     checks = BooleanChecks(BOOLEAN_CHECK_SECONDS)
     checks.begin(nominal.shape, keep=True)
     checks.begin(shape)

@@ -17,7 +17,9 @@ from ..inspection.sampling import PartPair
 from ..registration.request import RegistrationRequest
 from ..report.stopwatch import Progress
 from ..scan.cloud import PointCloud
+from .destinations import step_keeps_numbers
 from .inputs import as_cloud, as_model, as_request
+from .outputs import write
 from .registering import Result, run
 
 
@@ -129,9 +131,6 @@ def write_inspected(found: InspectedPart, folder: Path, inputs: tuple[Path, ...]
     ------
     RefusedError : the disk is full
     """
-    from .destinations import step_keeps_numbers
-    from .outputs import write
-
     more: tuple[str, ...] = ()
     if found.result is not None:
         more = ("as_built.step" if step_keeps_numbers(found.nominal) else "as_built.brep", "report.json")

@@ -12,6 +12,7 @@ from ..brep.topology import points_on_edge
 from ..brep.workpiece import Workpiece
 from ..errors import RefusedError
 from ..registration.arrays import Array
+from ..registration.motions import apply
 from ..registration.rigid import AMBIGUOUS, FAILED, align
 from ..registration.uv_raster import make_raster
 from ..scan.cloud import PointCloud
@@ -78,7 +79,7 @@ def far_scan_refusal(part: Workpiece, cloud: PointCloud, places: Array, far: flo
     if found.verdict == FAILED:
         return (f"The scan does not show this part where it lies: {found.reason}; choose another scan, or align it "
                 f"with the model.")
-    aligned = cloud.points @ found.T_model_scan[:3, :3].T + found.T_model_scan[:3, 3]
+    aligned = apply(found.T_model_scan, cloud.points)
     off = np.linalg.norm(aligned - cloud.points, axis=1)
     if found.verdict == AMBIGUOUS:  # a body of revolution fits however it is turned: how far off its surface?
         tree = cKDTree(places)

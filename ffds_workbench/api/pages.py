@@ -21,6 +21,7 @@ from .destinations import destinations
 from .registering import Result
 
 _ALONG_EDGE = 33
+"""Points of an edge in the pictures (unit: as fine as they show)."""
 
 
 def write_pages(result: Result, html: str | Path | None = None, pdf: str | Path | None = None,

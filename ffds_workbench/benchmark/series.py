@@ -28,7 +28,7 @@ from ..series.scans import ScanFile
 from ..series.setup import Outcome, PartJob
 
 _SIGMA = 0.02
-"""Noise that is added to the example's scan for each part, in mm."""
+"""Noise that is added to the example's scan for each part, in mm (unit)."""
 
 
 def run(folder: Path, progress: Callable[[str], None], parts: int = 8, workers: Sequence[int] = (1, 2),
@@ -95,15 +95,16 @@ def _used() -> float:
 
 
 def _series(scans: Sequence[Path], out: Path, workers: int, alone: dict[str, float]) -> dict[str, Any]:
-    """One series: elapsed time with all that begins and ends it, and the parts' own."""
+    """One series: elapsed time with all that begins and ends it, and the parts' own; parts an hour are those of all
+    workers in the median part's time, without beginning and end."""
     start = time.perf_counter()
     found = api.series(RESOURCES / "examples" / "bracket.step", list(scans), out, workers=workers)
     elapsed = time.perf_counter() - start
-    seconds = np.sort([part.seconds for part in found.parts])
-    spread = float(np.median(seconds))
+    seconds = np.array([part.seconds for part in found.parts])
+    usual = float(np.median(seconds))
     return {"workers": workers, "parts": len(scans), "refused": sum(bool(part.exit) for part in found.parts),
-            "elapsed_s": elapsed, "part_s": spread, "part_over_alone": spread / alone["next_s"],
-            "parts_per_hour": 3600 * workers / spread, "begin_and_end_s": elapsed - float(seconds.sum()) / workers}
+            "elapsed_s": elapsed, "part_s": usual, "part_over_alone": usual / alone["next_s"],
+            "parts_per_hour": 3600 * workers / usual, "begin_and_end_s": elapsed - float(seconds.sum()) / workers}
 
 
 def _nothing(folder: Path, job: PartJob) -> Outcome:
@@ -118,7 +119,7 @@ def _many(out: Path, count: int) -> dict[str, float]:
     start = time.perf_counter()
     jobs = index.add([ScanFile(out / f"part{number}.ply") for number in range(count)])
     added = time.perf_counter() - start
-    before, used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 0.0
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     with connected(1, None) as client:
         queue = Queue(client, partial(_nothing, out), index.record)
         for job in jobs:

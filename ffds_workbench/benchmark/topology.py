@@ -17,7 +17,7 @@ import numpy as np
 import Part
 
 from .. import ROOT
-from ..api.certified import SURFACE_TOLERANCE as LOCAL_TOLERANCE
+from ..api.certified import REBUILD_TOLERANCE
 from ..brep import topology, workpiece
 from ..brep.continuity import local_displacements
 from ..brep.face_displacement import FaceDisplacement
@@ -139,7 +139,7 @@ def _row(name: str, mode: str, part: Workpiece, nominal: Condition,
          displacements: Callable[[], Mapping[int, FaceDisplacement]]) -> Row:
     start = time.perf_counter()
     moved = displacements()
-    result = rebuild(part, moved, LOCAL_TOLERANCE if mode.startswith("bump") else SURFACE_TOLERANCE)
+    result = rebuild(part, moved, REBUILD_TOLERANCE if mode.startswith("bump") else SURFACE_TOLERANCE)
     seconds = time.perf_counter() - start
     back = _read_back(result)
     errors = boolean_checks((result,) if back is None else (result, back), BOOLEAN_LIMIT)

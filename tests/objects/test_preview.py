@@ -12,7 +12,7 @@ import Part
 import pytest
 
 from ffds_workbench import api
-from ffds_workbench.api.certified import SURFACE_TOLERANCE
+from ffds_workbench.api.certified import REBUILD_TOLERANCE
 from ffds_workbench.gui.preview.face_on_scan import corners
 from ffds_workbench.gui.preview.patches import Preview, figures
 from ffds_workbench.registration.request import ISOMETRY, METHODS, RegistrationRequest
@@ -84,7 +84,7 @@ def test_what_is_shown_last_is_what_ok_makes(plate_and_scan, settings):
     assert {made.part.faces[index].name for index in made.found.displacements} <= set(patches)
     for name, patch in patches.items():
         built = _points(made, made.part.index(name))
-        assert np.linalg.norm(built - patch.points, axis=1).max() < 2 * SURFACE_TOLERANCE, name
+        assert np.linalg.norm(built - patch.points, axis=1).max() < 2 * REBUILD_TOLERANCE, name
 
 
 @pytest.mark.parametrize("settings", REQUESTS, ids=str)

@@ -14,7 +14,7 @@ import Part
 from ...brep.model_files import Model
 from ...errors import InputError, RefusedError
 from ...output import replacing
-from ...registration.motions import describe_difference
+from ...registration.motions import apply, describe_difference
 from ...registration.request import ALIGNMENTS
 from ...registration.rigid import FAILED, Alignment, Target, align, target_of
 from ...registration.rigid.scan_unit import unit_by_size
@@ -103,8 +103,7 @@ def align_scan(model: Model | Part.Shape | object, scan: PointCloud | np.ndarray
         nominal = as_model(model)
         target = target_of_shape(nominal.shape)
     with watch.stage("align", "Aligning the scan"):
-        found = _from(begin, align(target, cloud.points @ begin[:3, :3].T + begin[:3, 3],
-                                   mode if start is None else "local"))
+        found = _from(begin, align(target, apply(begin, cloud.points), mode if start is None else "local"))
     if found.verdict == FAILED:
         _refuse_unit(cloud, nominal)
         raise RefusedError(f"The scan could not be aligned with the model: {found.reason}; check that it shows this "

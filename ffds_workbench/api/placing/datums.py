@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import Part
 
-from ...brep import workpiece
 from ...brep.model_files import Model
 from ...brep.workpiece import WorkpieceFace
 from ...errors import InputError, RefusedError
@@ -20,15 +19,17 @@ from ...registration.datums import (CylinderFeature, DatumFeature, DatumPose, Pl
                                    SphereFeature, align_on_datums, align_on_points, points_of_faces)
 from ...registration.datums.datum_pose import FREEDOMS
 from ...registration.motions import apply
+from ...registration.rigid import AMBIGUOUS, OK
 from ...report.stopwatch import Progress, Stopwatch
 from ...scan.cloud import PointCloud
+from ..inputs import as_cloud, as_model, as_workpiece
 from .aligning import align_scan
-from ..inputs import as_cloud, as_model
 
 _SELECTIONS = 3
-"""How often the points of the datums are looked for anew, each time where the last pose has brought them."""
+"""How often the points of the datums are looked for anew, each time where the last pose has brought them
+(unit: time)."""
 _LEAST_POINTS = 20
-"""Points of a datum below which it counts as not seen."""
+"""Points of a datum below which it counts as not seen (unit: clutter may leave some)."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ def align_on_datum_faces(model: Model | Part.Shape | str | Path | Any, scan: Poi
     watch = Stopwatch(progress)
     with watch.stage("read", "Reading the model"):
         nominal, cloud = as_model(model), as_cloud(scan)
-        part = workpiece.read(nominal.shape)
+        part = as_workpiece(nominal.shape)
         if not datums or len(set(datums)) < len(datums):
             raise InputError("Datums are one to three different faces, the primary one first.")
         indices = [part.index(name) for name in datums]
@@ -174,7 +175,7 @@ def _result(cloud: PointCloud, found: DatumPose, names: tuple[str, ...], watch: 
               zip(names, found.datums, strict=True) if not fit.points]
     loose = [f"{found.free} degrees of freedom are told by no datum and stay as they were."] if found.free else []
     pose = found.T_model_scan.tolist()
-    report = {"T_model_scan": pose, "verdict": "ok" if not found.free else "ambiguous",
+    report = {"T_model_scan": pose, "verdict": AMBIGUOUS if found.free else OK,
               "confidence": 1.0 if not (found.free or unseen) else 0.5,
               "poses": [{"T_model_scan": pose, "score": 1.0, "reason": "datums"}], "warnings": unseen + loose,
               "datums": [{"name": name, **vars(fit)} for name, fit in zip(names, found.datums, strict=True)],

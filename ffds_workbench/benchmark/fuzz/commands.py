@@ -16,7 +16,7 @@ _COMMAND_LINE = "ffds_workbench.cli"
 for _name in (f"{_COMMAND_LINE}.main", "ffds_workbench.api"):
     importlib.import_module(_name)  # here, once for all commands
 _PATIENCE = 10.0
-"""Times its limit that a command is waited for, as other work may load the machine."""
+"""Times its limit that a command is waited for, as other work may load the machine (unit)."""
 
 
 @dataclass(frozen=True)

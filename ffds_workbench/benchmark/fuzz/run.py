@@ -19,10 +19,11 @@ from . import kinds, seeds, worker
 
 Progress = Callable[[str], None]
 
-_BATCH = 20_000, 50
-"""Scans or paths, and models, between which the table is written."""
+_SCAN_BATCH, _MODEL_BATCH = 20_000, 50
+"""Scans or paths, and models, between which the table is written (unit: time)."""
 _PATIENCE = 600.0
-"""Seconds that a step of one file is waited for, as other work may load the machine."""
+"""Seconds that a step of one file is waited for, as other work may load the machine (unit: longer than
+`commands` waits for one)."""
 _WORKER = """
 from ffds_workbench import find_freecad
 find_freecad.activate()
@@ -75,9 +76,10 @@ def run(folder: Path, progress: Progress, scans: int = 2000, models: int = 20, s
     counts |= dict.fromkeys(kinds.by_command() if models else (), models)
     for kind, count in counts.items():
         rows.append(FuzzRow(kind))
+        most = _MODEL_BATCH if kind.startswith("model") else _SCAN_BATCH
         while rows[-1].tried < count:
             progress(f"{kind}: {rows[-1].tried} of {count}")
-            _batch(folder, rows[-1], min(_BATCH[kind.startswith("model")], count - rows[-1].tried), seed)
+            _batch(folder, rows[-1], min(most, count - rows[-1].tried), seed)
             _write(folder, rows)
     for name in ("at", "said", "scan.ply", "out.step", *(f"{stem}{suffix}" for stem in ("file", "new") for suffix in
                  {kinds.suffix(row.kind) for row in rows})):
@@ -91,7 +93,7 @@ def _batch(folder: Path, row: FuzzRow, count: int, seed: int) -> None:
     at.write_text(str(first))
     command = [sys.executable, "-P", "-c", _WORKER, str(folder), row.kind, *map(str, (first, count, seed))]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                              env={**os.environ, "PYTHONPATH": str(ROOT)})
+                               env={**os.environ, "PYTHONPATH": str(ROOT)})
     what = "ended the process"
     while process.poll() is None:
         try:

@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 GOOD = ("taken", "refused")
 LIMIT = 30.0
-"""Seconds of processor time that a file may take."""
+"""Seconds of processor time that a file may take (unit: what one waits for a refusal)."""
 MEMORY = 2 << 30
-"""Bytes that reading may take beyond what the idle process has, and that a command may take."""
+"""Bytes that reading may take beyond what the idle process has, and that a command may take (unit)."""
 LONGEST = 400
-"""Characters of a sentence, the file's name left out."""
+"""Characters of a sentence, the file's name left out (unit: what one reads)."""
 _LOW, _HIGH = np.array([0.0, 0.0, -8.0]), np.array([100.0, 100.0, 8.0])
 
 

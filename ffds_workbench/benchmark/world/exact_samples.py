@@ -16,7 +16,7 @@ from ...registration.arrays import Array
 _SAG, _FINEST = 2e-4, 0.015
 """Largest distance of the mesh from the faces, of the diagonal of the part's box, and the least in mm: below some
 0.01 mm OCCT's mesher makes hundreds of thousands of triangles of a small torus. The mesh says where to draw points and
-what hides what, not where a point lies."""
+what hides what, not where a point lies (unit; the least calibrated: by hand, on a rod end of 6 mm)."""
 _LONGEST = 1 / 120
 """Longest side of a triangle, of the same diagonal: what is flat may be bent afterwards."""
 
