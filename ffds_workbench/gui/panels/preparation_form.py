@@ -13,6 +13,7 @@ from ..translating import tr
 from ..widgets import Form, ProgressBar, choice, folded, length, named, wrapped
 
 _FARTHEST = 1e7
+"""Largest length and coordinate that can be entered, mm."""
 STAYS, GOES = 0x8AE0FFFF, 0xE6194BFF
 """Colours of the points that a step leaves, and of those that it takes away."""
 
