@@ -14,7 +14,7 @@ from .. import running
 from ..qt import QtCore, QtWidgets
 from ..translating import said, tr
 from ..view3d.overlay import Overlay, points_node
-from ..widgets import Form, ProgressBar, named, wrapped
+from ..widgets import Form, ProgressBar, named, warning, wrapped
 from .closing import TaskPanel
 
 _PAIRS = 3
@@ -43,8 +43,7 @@ class PointPairsPanel(TaskPanel):
         self._worker: running.Worker | None = None
         self.form = Form()
         self.form.setWindowTitle(tr("Align by three points"))
-        self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), wrapped("FfdsMessageLabel")
-        self._message.setStyleSheet("color: #b3401f")
+        self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), warning("FfdsMessageLabel")
         self._back = named(QtWidgets.QPushButton(tr("Take back the last point")), "FfdsBack")
         self._refine = named(QtWidgets.QCheckBox(tr("Fine alignment from there")), "FfdsRefine",
                              tr("Go on by closest points; without it the three pairs alone decide"))
