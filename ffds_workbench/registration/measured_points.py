@@ -87,9 +87,9 @@ def register_points(part: JointPart, rows: MeasuredRows, surface: Array, setting
     state = start(problem)
     stage = replace(_SOFT, allowance=min(1.0, len(rows.value) / _SHAPES_OF_A_SCAN))
     for _ in range(_ITERATIONS):
-        factor = FrontCholesky(problem.pattern.layout, (equations := _equations(problem, state, places, rows)).blocks)
-        step = factor.solve(equations.right.ravel()).reshape(-1, 3)
-        moved = state.control_points + step
+        equations = _equations(problem, state, places, rows)
+        step = FrontCholesky(problem.pattern.layout, equations.blocks).solve(equations.right.ravel())
+        moved = state.control_points + step.reshape(-1, 3)
         state = replace(state, control_points=moved,
                         cache=replace(state.cache, matrices=ShapeMatrices.of(problem, moved)))
         state = update_prior_trust(problem, state, stage)
