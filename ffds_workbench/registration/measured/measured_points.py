@@ -12,15 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import Array, Index
-from .joint.iteration import ShapeMatrices, State, prior_equations, start
-from .joint.linear import FrontCholesky, NormalEquations
-from .joint.prior_trust import prior_cost, update_prior_trust
-from .joint.priors import COMPONENTS
-from .joint.problem import Problem, make_problem
-from .joint.settings import JointSettings, Stage
-from .joint.surfaces import FacePlaces, JointPart, places_on_faces
-from .splines import SplineSurface
+from ..arrays import Array, Index
+from ..joint.iteration import ShapeMatrices, State, prior_equations, start
+from ..joint.linear import FrontCholesky, NormalEquations
+from ..joint.prior_trust import prior_cost, update_prior_trust
+from ..joint.priors import COMPONENTS
+from ..joint.problem import Problem, make_problem
+from ..joint.settings import JointSettings, Stage
+from ..joint.surfaces import FacePlaces, JointPart, places_on_faces
+from ..splines import SplineSurface
 
 _ITERATIONS = 8
 """Gauss-Newton steps (unit: the last ones move by less than a thousandth of the first)."""
