@@ -83,9 +83,10 @@ def test_refusals_in_the_faq_are_refusals():
             assert any(piece.strip(" :") in text for text in texts), row
 
 
-ELSEWHERE = {"gallery.md", "robot.md", "series.md"}
-"""Pages of resources/docs whose blocks others run: the gallery's `resources/scripts/gallery.py`, the same commands as
-here but for the edges of the bracket; the others' `tests/robot` and `tests/series`, on parts that have it."""
+ELSEWHERE = {"gallery.md", "robot.md", "series.md", "fields.md", "inspection.md"}
+"""Pages of resources/docs whose blocks are not run here. `resources/scripts/gallery.py` runs the gallery's, the same
+commands as here but for the edges of the bracket. The rest need files or parts that the workplace has not; what
+they do is tested in `tests/robot`, `tests/series`, `tests/fields` and `tests/inspection`."""
 RUN = [page for page in PAGES if page != ROOT / "CONTRIBUTING.md"
        and str(page.relative_to(ROOT)) not in {f"resources/docs/{name}" for name in ELSEWHERE}
        and re.search(r"^```(?:sh|python)$", page.read_text("utf-8"), re.MULTILINE)]

@@ -78,10 +78,10 @@ def _commit(folder):
                    env={**os.environ, **name, "GIT_AUTHOR_DATE": date, "GIT_COMMITTER_DATE": date})
 
 
-def _release(folder, *arguments):
-    """Release without the suite on each system, which these tests are a part of."""
+def _release(folder, *arguments, systems=""):
+    """Release; unless told without the suite on each system, which these tests are a part of."""
     return subprocess.run(["sh", "resources/scripts/release.sh", *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True, env={**os.environ, "FFDS_SYSTEMS": ""})
+                          capture_output=True, env={**os.environ, "FFDS_SYSTEMS": systems})
 
 
 def test_the_zip_installs_and_runs_the_bracket(checkout, tmp_path):
@@ -131,8 +131,7 @@ def test_no_zip_is_built_where_the_suite_fails(checkout, tmp_path):
     shutil.copytree(checkout, folder)
     (folder / "tests" / "systems.sh").write_text('echo "asked for $1"; [ "$1" = trixie ]\n')
     _commit(folder)
-    done = subprocess.run(["sh", "resources/scripts/release.sh", str(tmp_path)], cwd=folder, text=True,
-                          capture_output=True, env={**os.environ, "FFDS_SYSTEMS": "trixie forky"})
+    done = _release(folder, tmp_path, systems="trixie forky")
     assert done.returncode == 3 and "fails on forky" in done.stderr and "asked for trixie" in done.stdout
     assert not list(tmp_path.glob("*.zip"))
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
+import subprocess
+import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
@@ -103,6 +105,13 @@ def test_no_files_import_each_other_in_a_circle():
         TopologicalSorter(arrows).prepare()
     except CycleError as circle:
         raise AssertionError(" → ".join(circle.args[1])) from None
+
+
+def test_the_picture_of_the_rooms_can_be_drawn(tmp_path):
+    """Rooms that use each other in a circle have no floor to stand on."""
+    script = ROOT / "resources" / "scripts" / "architecture.py"
+    subprocess.run([sys.executable, script, tmp_path / "p.png"], check=True, capture_output=True)
+    assert (tmp_path / "p.png").stat().st_size > 10_000  # a picture, not an empty page
 
 
 @pytest.mark.parametrize("package", ARROWS)

@@ -49,4 +49,4 @@ def plan_robot(plan: SeamPlan, cell: Cell, settings: RobotSettings | None = None
     settings = settings or RobotSettings()
     found = _plan_robot(plan, cell, settings, bands, None if process is None else read_process(Path(process)),
                         searching, progress)
-    return found, planned_moves(plan, found, settings)
+    return found, planned_moves(found, settings)

@@ -12,6 +12,7 @@ from .translating import tr
 from .widgets import named, wrapped
 
 _WIDE = 340
+"""Pixels."""
 
 
 def _steps() -> list[tuple[str, tuple[str, ...]]]:

@@ -9,10 +9,10 @@ import FreeCADGui as Gui
 
 from .translating import tr
 
-
 Place = tuple[float, float, float]
 _REACH = 0.1
-"""How far from a part, as a share of its size, the point of a scan may be that was clicked to mean one of its faces."""
+"""How far from a part, as a share of its size, the point of a scan may be that was clicked to mean one of its faces
+(unit: scans of deformed parts lie nearer)."""
 
 
 class _Clicks:
@@ -113,12 +113,13 @@ def face_at(document: Any, place: Place) -> tuple[Any, str] | None:
     for item in parts_shown(document):
         shape = Part.getShape(item).copy()
         shape.Placement = outer_placement(item).multiply(shape.Placement)
-        best = min(best, _REACH * shape.BoundBox.DiagonalLength) if found is None else best
+        near = min(best, _REACH * shape.BoundBox.DiagonalLength)
         for number, face in enumerate(shape.Faces, 1):
             box = face.BoundBox
-            box.enlarge(best)
-            if box.isInside(vertex.Point) and (distance := face.distToShape(vertex)[0]) < best:
-                best, found = distance, (item, f"Face{number}")
+            box.enlarge(near)
+            if box.isInside(vertex.Point) and (distance := face.distToShape(vertex)[0]) < near:
+                near = best = distance
+                found = item, f"Face{number}"
     return found
 
 

@@ -8,6 +8,8 @@ from .qt import QtCore, QtWidgets
 
 _SHORT = 6
 """Letters of a list's entries that are seen even in a narrow panel."""
+DOUBTFUL = "#b3401f"
+"""Colour of what is wrong, or should be looked at."""
 
 
 class Form(QtWidgets.QWidget):
@@ -99,4 +101,11 @@ def wrapped(name: str) -> Any:
     """A label for sentences."""
     label = named(QtWidgets.QLabel(), name)
     label.setWordWrap(True)
+    return label
+
+
+def warning(name: str) -> Any:
+    """A label for sentences on what is wrong."""
+    label = wrapped(name)
+    label.setStyleSheet(f"color: {DOUBTFUL}")
     return label

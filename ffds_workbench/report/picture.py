@@ -25,6 +25,7 @@ _MOST_POINTS = 60_000
 COLOURS = ("#27348b", "#2f7fc8", "#7cc4cf", "#8dbd8b", "#f0cf5b", "#e8792f", "#a8122a")
 _INK, _MUTED, _PAPER = "#1d2733", "#6b7785", "#ffffff"
 _LEGEND_INCHES = 1.34
+"""Width that the colour scale takes with its words, right of the panels."""
 _BEFORE, _AFTER = "#c2703d", "#2b6cb0"
 
 

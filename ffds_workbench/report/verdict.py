@@ -12,9 +12,12 @@ from .table import doubts
 SHOW, DEVIATION, SCAN = "show", "deviation", "scan"
 """What a piece of advice proposes: to look at its faces, at the deviation, or to bring another scan."""
 _NOISES = 3.0
-"""95 % of white noise lie within two standard deviations; what a surface may leave beyond that makes it three."""
+"""95 % of white noise lie within two standard deviations (theory); what a surface may leave beyond that makes it three
+(unit)."""
 _HALF = 0.5
+"""Share of a face that has to be seen (unit: most of it)."""
 _MOST_NAMES = 8
+"""Faces that a sentence names (unit)."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..registration.arrays import Array
 from .arms import Arm
-from .kinematics import link_angles
+from .kinematics import posture
 
 
 def configurations(arm: Arm, joints: Array) -> tuple[str, ...]:
@@ -14,16 +14,12 @@ def configurations(arm: Arm, joints: Array) -> tuple[str, ...]:
 
     FANUC: wrist (N: joint 5 below zero), elbow (U), front (T), and whole turns of joints 1, 4 and 6. Yaskawa: 1 where R
     lies within ±90° (no flip), 1 where the elbow is below, 1 where the wrist is behind, and 1 where R, T and S are
-    beyond 180°.
+    beyond 180°. Both are from memory, as neither maker's manual was at hand; ``resources/docs/robot.md`` says so to
+    users.
     """
     if arm.maker not in ("fanuc", "yaskawa") or not arm.family.spherical:
         return ()
-    start, end = link_angles(arm.family)
-    first, second = arm.family.lengths
-    sign = float(np.sign(arm.chain.directions[2] @ arm.family.frame[:, 1]))
-    upper, bend = start + joints[:, 1], end - start + sign * joints[:, 2]
-    out = ((arm.family.shoulder - arm.chain.points[0]) @ arm.family.frame[:, 0] + first * np.sin(upper)
-           + second * np.sin(upper + bend))
+    bend, out = posture(arm.family, joints)
     front = out > 0.0
     above = (bend > 0.0) == front
     degrees = np.degrees(joints)

@@ -17,7 +17,8 @@ from ..seams.programs.moves import RobotSettings
 from ..seams.trust import read_trust, trust_of
 from .cells import Cell
 from .clearance import MeshDistance, Moving, Surroundings, Facets, joined, triangles_of
-from .planning import Course, Failure, SeamPath, leaving, plan_path, remedy, transfer
+from .planning import (APPROACH, PROCESS, SEARCH, TRANSFER, Course, Failure, SeamPath, leaving, plan_path, remedy,
+                       transfer)
 from .process import USUAL_TOLERANCE, Process, Welding, runs, welding_of
 from .searches import Search, is_needed, searches_of
 
@@ -100,7 +101,8 @@ class RobotPlan:
     cell : the robot where it stands
     moving : the same, to measure with
     seams : in the order of the plan
-    order : the pieces that are welded, in the order in which they are: index of the seam, and of its piece
+    order : the pieces that are welded, in the order in which they are: index of the seam, and of its piece; none of
+        seams beyond their limits unless they are kept
     process : None where none was given
     """
 
@@ -131,7 +133,7 @@ def plan_robot(plan: SeamPlan, cell: Cell, settings: RobotSettings | None = None
     ----------
     plan : of ``plan_seams``
     cell : of ``read_cell``
-    settings : velocity along the seams and distance of the approach
+    settings : velocity along the seams, distance of the approach, and whether seams beyond their limits are welded
     bands : the registration's report or its file: faces stand out by their bands
     process : of ``read_process``; its speeds count then
     searching : plan touches where a seam is less sure than the process needs
@@ -147,7 +149,8 @@ def plan_robot(plan: SeamPlan, cell: Cell, settings: RobotSettings | None = None
     for seam in plan.seams:
         progress(f"Planning {seam.name} for the {cell.arm.name}")
         found.append(_one(seam, moving, cell, settings, process, searching))
-    order, found = _ordered(found, moving, cell)
+    wanted = [settings.keep_failing or not seam.exceeded(plan.limits) for seam in plan.seams]
+    order, found = _ordered(found, wanted, moving, cell)
     return RobotPlan(cell, moving, tuple(found), tuple(order), process)
 
 
@@ -182,19 +185,19 @@ def _one(seam: MeasuredSeam, moving: Moving, cell: Cell, settings: RobotSettings
         return failed(replace(path.failure, remedy=remedy(moving, cell, course, path.failure)))
     parts = _parts(len(stations), welding)
     if welding is not None and not parts:
-        return failed(Failure(welding.refused[0][0], "process", welding.refused[0][2]))
+        return failed(Failure(welding.refused[0][0], PROCESS, welding.refused[0][2]))
     searches: tuple[Search, ...] = ()
     if searching and is_needed(seam, USUAL_TOLERANCE if process is None else process.tolerance):
         touches = searches_of(seam, path.tips, path.joints, moving, cell)
         if touches is None:
-            return failed(Failure(0, "search", "it is less sure than it must be, and a touch of it is not free"))
+            return failed(Failure(0, SEARCH, "it is less sure than it must be, and a touch of it is not free"))
         searches = touches
     pieces = []
     for first, last in parts:
         away = [leaving(moving, cell, path.tips[end], path.joints[end], settings.approach) for end in (first, last)]
         if away[0] is None or away[1] is None:
             station, what = (first, "approach to") if away[0] is None else (last, "retract from")
-            return failed(Failure(station, "approach", f"the {what} station {station + 1} is not free"))
+            return failed(Failure(station, APPROACH, f"the {what} station {station + 1} is not free"))
         pieces.append(SeamPiece(first, last, away[0], away[1]))
     return PlannedSeam(seam, path, tuple(pieces), welding, searches)
 
@@ -207,11 +210,18 @@ def _parts(count: int, welding: Welding | None) -> list[tuple[int, int]]:
     return [(int(run[0]), int(run[-1]) + 1) for run in runs(kept)]
 
 
-def _ordered(seams: Sequence[PlannedSeam], moving: Moving, cell: Cell
+def _ordered(seams: Sequence[PlannedSeam], wanted: Sequence[bool], moving: Moving, cell: Cell
              ) -> tuple[list[tuple[int, int]], list[PlannedSeam]]:
-    """The nearest piece next, by the time that the slowest joint takes; and the ways in between."""
+    """The nearest piece next, by the time that the slowest joint takes; and the ways in between.
+
+    Every way begins where the piece before it in the order ends: a piece that is not welded must not be in it.
+
+    Parameters
+    ----------
+    wanted : which seams are welded
+    """
     found, order = list(seams), list[tuple[int, int]]()
-    left = [(number, part) for number, seam in enumerate(found) for part in range(len(seam.pieces))]
+    left = [(number, part) for number, seam in enumerate(found) if wanted[number] for part in range(len(seam.pieces))]
     at = cell.home
     while left:
         nearest = left[0]
@@ -225,10 +235,12 @@ def _ordered(seams: Sequence[PlannedSeam], moving: Moving, cell: Cell
         piece = seam.pieces[part]
         way = np.stack([piece.approach] * 2) if at is None else _way(moving, cell, at, piece.approach)
         if way is None:
-            failure = Failure(piece.first, "transfer", "no way through the air was found to its approach")
+            failure = Failure(piece.first, TRANSFER, "no way through the air was found to its approach")
             found[number] = replace(seam, path=replace(seam.path, failure=failure), pieces=())
+            if any(item[0] == number for item in order):
+                # Ways lead from its other pieces: they are sought anew without them.
+                return _ordered(found, wanted, moving, cell)
             left = [item for item in left if item[0] != number]
-            order = [item for item in order if item[0] != number]
             continue
         pieces = (*seam.pieces[:part], replace(piece, way=way[1:-1]), *seam.pieces[part + 1 :])
         found[number] = replace(seam, pieces=pieces)

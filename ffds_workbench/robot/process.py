@@ -6,7 +6,6 @@ beyond the last row, that stretch is not welded.
 """
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from ..errors import InputError
 from ..registration.arrays import Index
 from ..seams.measured import MeasuredSeam
 from ..seams.programs.moves import RobotSettings
+from .entries import checked_object, read_object
 from .searches import Search
 
 _TEMPLATES = RESOURCES / "robots" / "templates" / "process.json"
@@ -28,7 +28,7 @@ _KEYS = ("tables", "tolerance", "stitch", "templates")
 _ROW = ("gap", "speed", "job", "weave")
 _WEAVE = ("schedule", "pattern", "width", "frequency")
 USUAL_TOLERANCE = 0.5
-"""In mm: about half a wire; how far off a seam may be for which the process names no tolerance."""
+"""In mm: about half a wire; how far off a seam may be for which the process names no tolerance (unit)."""
 
 
 @dataclass(frozen=True)
@@ -88,18 +88,17 @@ def read_process(path: Path) -> Process:
     ------
     InputError : the file cannot be read, lacks what is needed or holds what is unknown
     """
-    entries = _json(path, "process")
-    _check_keys(entries, _KEYS, "process")
+    entries = checked_object(read_object(path, "process"), _KEYS, "process")
     tables = entries.get("tables")
     if not isinstance(tables, list) or not tables:
         raise InputError("The process must have tables: a list of objects with joint and rows.")
     stitch = entries.get("stitch")
     if stitch is not None:
-        _check_keys(stitch, ("length", "gap"), "process's stitch")
+        stitch = checked_object(stitch, ("length", "gap"), "process's stitch")
         stitch = _number(stitch, "length", "stitch"), _number(stitch, "gap", "stitch")
     templates = usual_templates()
     if "templates" in entries:
-        own = _json(path.parent / str(entries["templates"]), "templates")
+        own = read_object(path.parent / str(entries["templates"]), "templates")
         templates = {dialect: {**templates.get(dialect, {}), **own.get(dialect, {})} for dialect in {*templates, *own}
                      if not dialect.startswith("$")}
     tolerance = _number(entries, "tolerance", "process") if "tolerance" in entries else USUAL_TOLERANCE
@@ -108,27 +107,7 @@ def read_process(path: Path) -> Process:
 
 def usual_templates() -> Mapping[str, Any]:
     """By dialect and event: the lines to write."""
-    return {name: lines for name, lines in _json(_TEMPLATES, "templates").items() if not name.startswith("$")}
-
-
-def _json(path: Path, what: str) -> Mapping[str, Any]:
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise InputError(f"The {what} {path} cannot be read: {error.strerror}.") from error
-    except ValueError as error:
-        raise InputError(f"The {what} {path} is not JSON: {error}.") from error
-    if not isinstance(found, Mapping):
-        raise InputError(f"The {what} {path} must be one object.")
-    return found
-
-
-def _check_keys(entry: object, known: Sequence[str], what: str) -> None:
-    if not isinstance(entry, Mapping):
-        raise InputError(f"The {what} must be an object with the keys {', '.join(known)}.")
-    unknown = [key for key in entry if key not in known and not key.startswith("$")]
-    if unknown:
-        raise InputError(f"The {what} has an unknown key '{unknown[0]}': there are {', '.join(known)}.")
+    return {name: lines for name, lines in read_object(_TEMPLATES, "templates").items() if not name.startswith("$")}
 
 
 def _number(entry: Mapping[str, Any], key: str, what: str) -> float:
@@ -139,8 +118,7 @@ def _number(entry: Mapping[str, Any], key: str, what: str) -> float:
 
 
 def _table(entry: object) -> tuple[frozenset[str], tuple[TableRow, ...]]:
-    _check_keys(entry, ("joint", "rows"), "process's table")
-    assert isinstance(entry, Mapping)
+    entry = checked_object(entry, ("joint", "rows"), "process's table")
     joints = entry.get("joint", "any")
     rows = entry.get("rows")
     if not isinstance(rows, list) or not rows:
@@ -150,14 +128,12 @@ def _table(entry: object) -> tuple[frozenset[str], tuple[TableRow, ...]]:
 
 
 def _row(entry: object) -> TableRow:
-    _check_keys(entry, _ROW, "process's row")
-    assert isinstance(entry, Mapping)
+    entry = checked_object(entry, _ROW, "process's row")
     speed = _number(entry, "speed", "row")
     RobotSettings(velocity=speed)  # says what is wrong with it
     if "job" not in entry:
         raise InputError("A row of the process must name a job: the number of the schedule to weld with.")
-    weave = entry.get("weave", {})
-    _check_keys(weave, _WEAVE, "process's weave")
+    weave = checked_object(entry.get("weave", {}), _WEAVE, "process's weave")
     return TableRow(_number(entry, "gap", "row"), speed, {"job": entry["job"], "speed": speed, **weave}, bool(weave))
 
 

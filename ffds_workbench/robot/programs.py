@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from ..registration.arrays import Array
-from ..seams.plan import SeamPlan
 from ..seams.programs.angles import kuka_angles
 from ..seams.programs.arcs import arcs_of
 from ..seams.programs.moves import BEFORE, PlannedMoves, RobotSettings, SeamMoves, moves
@@ -18,22 +17,21 @@ from .job import PlannedSeam, RobotPlan
 from .process import search_lines, statements, usual_templates
 
 
-def planned_moves(plan: SeamPlan, robot: RobotPlan, settings: RobotSettings) -> PlannedMoves:
+def planned_moves(robot: RobotPlan, settings: RobotSettings) -> PlannedMoves:
     """The programs' contents.
 
-    Seams come in the order in which the robot welds them; those that it cannot weld, or that are beyond their limits,
-    are left out unless the settings keep them: then they come last, as they were measured.
+    Seams come in the order in which the robot welds them; those that it cannot weld are left out unless the settings
+    keep them: then they come last, as they were measured.
 
     Parameters
     ----------
+    robot : planned with the same settings
     settings : tool and base that they name count; else those of the cell do
     """
     arm = robot.cell.arm
     settings = replace(settings, tool=_frame(robot.cell.torch.tcp) if settings.tool is None else settings.tool,
                        base=_frame(_model_in_world(robot)) if settings.base is None else settings.base)
-    within = [not seam.seam.exceeded(plan.limits) for seam in robot.seams]
-    found = [_moves(robot.seams[number], part, robot, settings) for number, part in robot.order
-             if within[number] or settings.keep_failing]
+    found = [_moves(robot.seams[number], part, robot, settings) for number, part in robot.order]
     failing = [seam for seam in robot.seams if not seam.pieces]
     notes = [seam.line() for seam in robot.seams]
     notes += [f"{seam.seam.name} is not welded from station {first + 1} to {last + 1}: {said}." for seam in robot.seams

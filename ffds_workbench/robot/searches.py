@@ -17,9 +17,10 @@ from .clearance import Moving
 from .planning import within_branch
 
 _BESIDE, _ABOVE, _BEYOND = 8.0, 6.0, 3.0
-"""In mm: how far beside the seam a face is touched, from what distance to it, and how far past it is searched."""
+"""In mm: how far beside the seam a face is touched, from what distance to it, and how far past it is searched (unit: an
+assumption on fillets and fixtures, until the process can say it)."""
 _LONG = 40.0
-"""Length in mm from which on both ends of a seam are searched."""
+"""Length in mm from which on both ends of a seam are searched (unit: shorter, both touches are nearly the same)."""
 
 
 @dataclass(frozen=True)

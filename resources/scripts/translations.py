@@ -26,8 +26,6 @@ LANGUAGES = ("de",)
 Text = tuple[str, str]
 """Context and text."""
 LAYERS = ("registration", "scan", "brep", "seams", "report", "api", "objects")
-GROUPS = ("Scan", "Deform", "Inspect", "Weld", "Learn")
-"""Titles of the submenus and toolbars."""
 SAYING = {"InputError": 0, "RefusedError": 0, "stage": 1, "tell": 0, "progress": 0, "report": 0, "_no_answer": 0}
 """Calls that say something, and which argument it is."""
 PHRASES = {"sentences", "reason", "lost", "where", "missing", "was", "renamed", "phrases", "notes", "left_out"}
@@ -42,7 +40,7 @@ WORDS = ("scan", "part", "faces", "edges", "vertices")
 def texts() -> list[Text]:
     """All texts, each once, in order."""
     found: list[Text] = [("Workbench", "Deform a CAD model to a scan; its topology stays")]
-    found += (("Workbench", title) for group in GROUPS for title in (group, f"FFDS {group}"))
+    found += (("Workbench", title) for group in _groups() for title in (group, f"FFDS {group}"))
     for path in sorted((ROOT / "ffds_workbench" / "gui").rglob("*.py")):
         tree = ast.parse(path.read_text("utf-8"))
         found += _of_calls(tree)
@@ -125,6 +123,13 @@ def _of_calls(tree: ast.AST) -> Iterator[Text]:
             place = {"tr": 0, "call": 1}.get(name)
             if place is not None and len(node.args) > place and isinstance(node.args[place], ast.Constant):
                 yield "FFDS", node.args[place].value
+
+
+def _groups() -> list[str]:
+    """Titles of the submenus and toolbars."""
+    tree = ast.parse((ROOT / "ffds_workbench" / "gui" / "commands" / "__init__.py").read_text("utf-8"))
+    return next([key.value for key in node.value.keys] for node in tree.body
+                if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict))
 
 
 def _of_commands(tree: ast.AST) -> Iterator[Text]:

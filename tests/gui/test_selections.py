@@ -16,6 +16,7 @@ from ffds_workbench.gui.commands.deform.deform_faces import DeformFaces
 from ffds_workbench.gui.commands.deform.deform_workpiece import DeformWorkpiece
 from ffds_workbench.gui.commands.inspect.show_deviation import ShowDeviation
 from ffds_workbench.gui.qt import QtWidgets
+from ffds_workbench.gui.selection import face_at
 from ffds_workbench.objects import scans
 
 TOLERANCE = 0.05
@@ -160,3 +161,14 @@ def test_a_deviation_map_of_an_empty_cloud_gets_a_sentence(hands, plate_document
     hands.command(ShowDeviation)
     hands.until(lambda: said, 20)
     assert said[0].endswith(".") and not Gui.Control.activeDialog()
+
+
+def test_the_face_below_a_scan_is_found_however_small_other_parts_are(hands):
+    document = FreeCAD.newDocument("Sizes")
+    washer = box(document, name="Washer")
+    washer.Length, washer.Width, washer.Height, washer.Placement.Base = 6, 6, 1, FreeCAD.Vector(200, 0, 0)
+    plate = box(document, name="Plate")
+    document.recompute()
+    # 2 mm above the plate of 72 mm: within a tenth of its size, which is more than a tenth of the washer's 8.5 mm.
+    assert face_at(document, (30, 20, 7)) == (plate, "Face6")
+    assert face_at(document, (203, 3, 3)) is None

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from ffds_workbench import api
 from ffds_workbench.errors import InputError, RefusedError
+from ffds_workbench.registration.datums import PlaneFeature, align_on_datums
 from ffds_workbench.registration.motions import apply, motion
 
 NOISE = 0.03
@@ -65,6 +66,15 @@ def test_datums_in_their_order(scan):
     _right(found.found.T_model_scan, moved, motion(turn, np.array([x, y, 0.0])))
     assert [fit.told for fit in found.found.datums] == [3, 2, 1] and not found.found.free
     assert found.report["verdict"] == "ok"
+
+
+def test_a_datum_may_have_any_number_of_points():
+    """A square array of so many numbers would take 320 GB. Their mean height is known to 0.03/√200000 = 0.00007 mm."""
+    points = np.random.default_rng(0).uniform(0, 100, (200_000, 3))
+    points[:, 2] = 0.2 + np.random.default_rng(1).normal(0, NOISE, len(points))
+    found = align_on_datums([PlaneFeature(np.zeros(3), np.array([0.0, 0, 1]))], [points], np.eye(4), 150.0)
+    assert found.datums[0].told == 3 and found.free == 3
+    assert apply(found.T_model_scan, np.array([[50.0, 50.0, 0.2]]))[0, 2] == pytest.approx(0.0, abs=3e-4)
 
 
 def test_locked_freedoms_stay(scan):

@@ -22,8 +22,9 @@ from ffds_workbench.registration.joint.problem import make_problem
 from ffds_workbench.registration.joint.settings import Stage
 from ffds_workbench.registration.joint.surfaces.cells import normals
 from ffds_workbench.registration.joint.surfaces import solid_sizes, span_counts
-from ffds_workbench.registration.joint.surfaces.lattices import build_lattices, cubic
+from ffds_workbench.registration.joint.surfaces.lattices import build_lattices
 from ffds_workbench.registration.joint.surfaces.seam_closing import close_seams
+from ffds_workbench.registration.splines import cubic
 
 SPANS, TURNING = 5.0, np.deg2rad(25)
 

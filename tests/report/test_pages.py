@@ -2,18 +2,22 @@
 """The report for people of the example: one page and a PDF, opened, turned and read in a browser without a network."""
 from __future__ import annotations
 
+import io
 import re
 import shutil
 import subprocess
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from ffds_workbench import RESOURCES, api
 from ffds_workbench.api import certified
 from ffds_workbench.errors import InputError
 from ffds_workbench.report.maps.lone_points import lone_points
 from ffds_workbench.report.pages.html_file import THREE
+from ffds_workbench.report.pages.pictures import picture
+from ffds_workbench.report.pages.scene import ColouredPart
 
 LARGEST = 5_000_000
 """Bytes of the example's page."""
@@ -42,6 +46,20 @@ def test_points_in_the_air_stand_alone_and_those_of_a_surface_do_not():
     assert lone[8000:].all()
     assert lone[:8000].sum() == 0  # corners have a quarter of the neighbours, at twice the distance
     assert not lone_points(air[:10]).any()
+
+
+def test_a_picture_of_many_triangles_has_no_holes():
+    """A square of 125,000 triangles seen from above, as many as a part of 250 faces has."""
+    count = 250
+    points = np.stack([*np.indices((count + 1, count + 1)).reshape(2, -1), np.zeros((count + 1) ** 2)], axis=1)
+    corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
+    triangles = corner[:, None] + np.concatenate([[[0, count + 1, 1]], [[1, count + 1, count + 2]]])[:, None]
+    flat, face_of = np.zeros(len(points)), np.zeros(2 * count**2, dtype=np.intp)
+    scene = ColouredPart(points, triangles.reshape(-1, 3), flat, flat, face_of, ("Face1",), [])
+    image = imread(io.BytesIO(picture(scene, np.array([0.0, 0.0, 1.0]))))
+    height, width = image.shape[:2]
+    inner = image[height // 2 - 50 : height // 2 + 50, width // 5 : width // 5 + 50, :3]
+    assert inner[:, :, 0].max() < 0.7  # red of paper is 1, and of the scale's middle 0.55
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from ...fields import VectorField
 from ...fields.combination import places_of
 from ...fields.csv_file import COLUMNS, SIGMA, read_table
 from ...registration.arrays import Array, Index
-from ...registration.measured_points import MeasuredRows, register_points
+from ...registration.measured import MeasuredRows, register_points
 from ...registration.uv_raster import make_raster
 from ..inputs import as_model
 

@@ -71,6 +71,12 @@ def one_part(selected: Chosen) -> Any:
     return selected.parts[0] if len(selected.parts) == 1 else None
 
 
+def one_as_built(selected: Chosen) -> Any:
+    """The selected part where it is the only one and an as-built one, else None; loads nothing, being asked often."""
+    part = one_part(selected)
+    return part if part is not None and "LatticeSizes" in part.PropertiesList else None
+
+
 def one_scan(selected: Chosen) -> Any:
     """The selected scan, or the document's only one; else None."""
     if selected.scans:

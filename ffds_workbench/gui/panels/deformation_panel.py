@@ -19,13 +19,13 @@ from ..preferences import preferences
 from ..preview.drawing import PICKED, SHOWN, WRONG, PreviewDrawing, marks
 from ..preview.patches import Patch, figures
 from ..preview.runner import PreviewRunner
-from ..qt import QtCore, QtWidgets, number_of
+from ..qt import QtCore, QtWidgets
 from ..selection import Chosen, chosen, scans_of
 from ..translating import said, tr
 from ..view3d.colours import good_limit
 from ..view3d.overlay import Overlay
 from ..view3d.rubber_band import RubberBand
-from .closing import Closing
+from .closing import TaskPanel
 from .deformation_form import DeformationForm
 from .picking import Picking, faces_in_box, one_shown
 from .result_panel import open_page
@@ -44,7 +44,7 @@ def open_panel(document: Any, item: Any = None, whole: bool = False) -> None:
         Gui.Control.showDialog(DeformationPanel(document, item, whole))
 
 
-class DeformationPanel:
+class DeformationPanel(TaskPanel):
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, document: Any, item: Any, whole: bool) -> None:
@@ -64,12 +64,10 @@ class DeformationPanel:
         self._overlay.fade(scans_of(document), _SCAN_TRANSPARENCY)
         self._drawing = PreviewDrawing(self._overlay)
         self._runner = PreviewRunner(self._draw, self._draw_nothing, self._told)
-        self.form.destroyed.connect(self._let_go)
         self.form.changed.connect(self._preview)
         self.form.by_box.clicked.connect(self._draw_box)
         Gui.Selection.addObserver(self)
-        self._watching = True
-        self._closing = Closing(document.Name, self._stop, self._close)
+        self._watch(document.Name)
         QtCore.QTimer.singleShot(0, self._preview)
 
     def _take(self, item: Any, selected: Chosen, whole: bool) -> None:
@@ -91,7 +89,7 @@ class DeformationPanel:
         QtCore.QTimer.singleShot(0, self._selection_changed)
 
     def _selection_changed(self) -> None:
-        if not self._watching or self.form.busy:
+        if not self._open or self.form.busy:
             return
         selected = chosen()
         if not (selected.parts or selected.scans or selected.others or selected.refusal):
@@ -136,7 +134,7 @@ class DeformationPanel:
 
     def _preview(self) -> None:
         """Preview what is set now."""
-        if not self._watching or self._closing.gone or self.form.busy:
+        if not self._open or self._closing.gone or self.form.busy:
             return
         try:
             job = self._job()
@@ -152,13 +150,13 @@ class DeformationPanel:
             self._draw_nothing(refusal)
 
     def _told(self, text: str) -> None:
-        if self._watching:
+        if self._open:
             self.form.show_progress(text)
 
     def _draw_nothing(self, failure: BaseException) -> None:
         if not isinstance(failure, FfdsError):
             raise failure
-        if not self._watching:
+        if not self._open:
             return
         other_side = isinstance(failure, OtherSideError)
         self._clear(self._picking.hint or said(str(failure)),
@@ -184,7 +182,7 @@ class DeformationPanel:
         self._preview()
 
     def _draw(self, job: Job, patches: list[Patch]) -> None:
-        if not self._watching:
+        if not self._open:
             return
         after = np.concatenate([patch.after for patch in patches])
         limit = good_limit(after)
@@ -201,7 +199,7 @@ class DeformationPanel:
 
     def accept(self) -> bool:
         """OK: compute in the background, then write the document in one undo step and close."""
-        if not self._watching or self.form.busy:
+        if not self._open or self.form.busy:
             return False
         self._read = None
         try:
@@ -244,40 +242,21 @@ class DeformationPanel:
         self._draw_nothing(failure)
         running.tell(said(str(failure)))
 
-    def reject(self) -> bool:
-        """Cancel: drop running work and leave the document as it is."""
-        self._close()
-        return True
-
     def _close(self) -> None:
-        if self._watching:
-            self._let_go()
+        if self._open:
+            super()._close()
             Gui.Selection.clearSelection()
-            QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
 
-    def _let_go(self, *_: Any) -> None:
-        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
-        if not self._watching:
-            return
-        self._watching = False
-        try:
-            Gui.Selection.removeObserver(self)
-            self._closing.release()
-            self._stop()
-        finally:
-            self._overlay.remove()
+    def _clean_up(self) -> None:
+        self._overlay.remove()
+        Gui.Selection.removeObserver(self)
 
     def _stop(self) -> None:
-        """Drop what is being computed."""
         self._runner.stop()
         if self._band is not None:
             self._band.stop()
         if self._worker is not None:
             self._worker.cancel()
-
-    def getStandardButtons(self) -> int:
-        """OK and Cancel."""
-        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 
 
 def _arguments(request: RegistrationRequest) -> str:

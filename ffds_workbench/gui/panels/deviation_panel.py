@@ -27,7 +27,7 @@ from ..translating import tr
 from ..view3d.colours import PASS_FAIL, SMOOTH, good_limit, packed_colours
 from ..view3d.overlay import Overlay, foremost, lines_node, mesh_node, points_node
 from ..widgets import Form, choice, length, named, wrapped
-from .closing import Closing
+from .closing import TaskPanel
 from .legend import Legend
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ def open_panel(part: Any, scan: Any) -> None:
         points = scan_points(scan)
         models = [(name, model_file.from_object(item)) for name, item in states]
 
-        def measure(progress: Any) -> list[Any]:
+        def measure(progress: Any) -> tuple[Any, Any]:
             found = [(name, api.deviation(model, points, progress)) for name, model in models]
             return found, lone_points(points)
 
@@ -55,7 +55,7 @@ def open_panel(part: Any, scan: Any) -> None:
         Gui.Control.showDialog(DeviationPanel(part, scan, found, lone))
 
 
-class DeviationPanel:
+class DeviationPanel(TaskPanel):
     """FreeCAD's task panel. ``found`` holds (name, `api.Deviation`) of each state of the part, ``lone`` which points of
     the scan stand alone."""
 
@@ -100,8 +100,7 @@ class DeviationPanel:
         self._shown = [*parts_shown(scan.Document), *scans_of(scan.Document)]
         self._callback = self._view.addEventCallback("SoLocation2Event", self._moved)
         Gui.Selection.clearSelection()  # what is selected shines through, in a green that would read as good
-        self._closing = Closing(self._document, lambda: None, self._close)
-        self.form.destroyed.connect(self._let_go)
+        self._watch(self._document)
         self._show()
 
     def _show(self, *_: Any) -> None:
@@ -154,24 +153,10 @@ class DeviationPanel:
             self._cursor.setText(tr("<b>{value} mm</b> at {place}").format(
                 value=f"{self._values[index]:+.3f}", place=f"{x:.1f}, {y:.1f}, {z:.1f}"))
 
-    def reject(self) -> bool:
-        """Close: everything drawn goes away."""
-        self._let_go()
-        return True
-
-    def _close(self) -> None:
-        self._let_go()
-        Gui.Control.closeDialog()
-
-    def _let_go(self, *_: Any) -> None:
-        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
-        if self._callback is None:
-            return
-        callback, self._callback = self._callback, None
-        self._closing.release()
-        if self._document in FreeCAD.listDocuments():  # a view that was closed crashes when it is asked
-            self._view.removeEventCallback("SoLocation2Event", callback)
+    def _clean_up(self) -> None:
         self._overlay.remove()
+        if self._document in FreeCAD.listDocuments():  # a view that was closed crashes when it is asked
+            self._view.removeEventCallback("SoLocation2Event", self._callback)
 
     def getStandardButtons(self) -> int:
         """Close."""

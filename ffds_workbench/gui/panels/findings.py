@@ -7,7 +7,7 @@ from typing import Any
 
 from ..qt import QtWidgets
 from ..translating import tr
-from ..widgets import named, wrapped
+from ..widgets import named, warning, wrapped
 from .legend import Legend
 
 
@@ -16,9 +16,8 @@ class Findings(QtWidgets.QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
+        self._figures, self._message = wrapped("FfdsFigures"), warning("FfdsMessageLabel")
         self._figures.setToolTip(tr("Distances of the scan from the faces, and the share of the faces that it shows"))
-        self._message.setStyleSheet("color: #b3401f")
         self._legend = named(Legend(), "FfdsLegend", tr("Deviation of the scan from the deformed faces"))
         self._other_side = named(QtWidgets.QPushButton(), "FfdsOtherSide",
                                  tr("Deform the face on the side of the sheet that the scan shows"))

@@ -33,10 +33,9 @@ class Legend(QtWidgets.QWidget):
         return QtCore.QSize(260, _TALL)
 
     def show_deviations(self, values: Array, limit: float, tolerance: float = 0.0, steps: int = SMOOTH) -> None:
-        """Deviations (n,) in mm; the scale ends at ±``limit``, what lies beyond is counted in the outermost bins."""
-        self._steps = steps
+        """Deviations (n,) in mm; the rest is of `packed_colours`. What lies beyond is counted in the outermost bins."""
         self._counts = np.histogram(np.clip(values, -limit, limit), _BINS, (-limit, limit))[0].astype(float)
-        self._limit, self._tolerance = limit, tolerance
+        self._limit, self._tolerance, self._steps = limit, tolerance, steps
         self.update()
 
     def paintEvent(self, event: Any) -> None:

@@ -11,11 +11,11 @@ from pivy import coin
 from ...errors import FfdsError, InputError
 from ...objects.jobs.manual_alignment import prepare
 from .. import running
-from ..qt import QtCore, QtWidgets, number_of
+from ..qt import QtCore, QtWidgets
 from ..translating import said, tr
 from ..view3d.overlay import Overlay, points_node
-from ..widgets import Form, ProgressBar, named, wrapped
-from .closing import Closing
+from ..widgets import Form, ProgressBar, named, warning, wrapped
+from .closing import TaskPanel
 
 _PAIRS = 3
 _COLOURS = (0xE6194BFF, 0x2F7FC8FF, 0xF0A500FF)
@@ -33,7 +33,7 @@ def open_panel(part: Any, scan: Any) -> None:
         Gui.Control.showDialog(PointPairsPanel(part, scan))
 
 
-class PointPairsPanel:
+class PointPairsPanel(TaskPanel):
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, part: Any, scan: Any) -> None:
@@ -43,8 +43,7 @@ class PointPairsPanel:
         self._worker: running.Worker | None = None
         self.form = Form()
         self.form.setWindowTitle(tr("Align by three points"))
-        self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), wrapped("FfdsMessageLabel")
-        self._message.setStyleSheet("color: #b3401f")
+        self._hint, self._state, self._message = wrapped("FfdsHint"), wrapped("FfdsPicked"), warning("FfdsMessageLabel")
         self._back = named(QtWidgets.QPushButton(tr("Take back the last point")), "FfdsBack")
         self._refine = named(QtWidgets.QCheckBox(tr("Fine alignment from there")), "FfdsRefine",
                              tr("Go on by closest points; without it the three pairs alone decide"))
@@ -58,8 +57,7 @@ class PointPairsPanel:
         self._overlay = Overlay(scan.Document.Name)
         Gui.Selection.clearSelection()
         Gui.Selection.addObserver(self)
-        self._watching = True
-        self._closing = Closing(scan.Document.Name, self._stop, self._close)
+        self._watch(scan.Document.Name)
         self._show()
 
     def addSelection(self, document: str, name: str, element: str, place: Point) -> None:
@@ -68,7 +66,7 @@ class PointPairsPanel:
         QtCore.QTimer.singleShot(0, lambda: self._picked_at(document, name, tuple(place)))
 
     def _picked_at(self, document: str, name: str, place: Point) -> None:
-        if not self._watching or self._worker is not None:
+        if not self._open or self._worker is not None:
             return
         if self._is_gone():
             self._close()
@@ -161,32 +159,18 @@ class PointPairsPanel:
         for widget in (self._back, self._refine):
             widget.setEnabled(not busy)
 
-    def reject(self) -> bool:
-        """Cancel: drop running work and leave the document as it is."""
-        self._close()
-        return True
-
     def _close(self) -> None:
-        if not self._watching:
-            return
-        self._watching = False
-        try:
-            Gui.Selection.removeObserver(self)
-            self._closing.release()
-            self._stop()
-        finally:
-            self._overlay.remove()
+        if self._open:
+            super()._close()
             Gui.Selection.clearSelection()
-        QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
+
+    def _clean_up(self) -> None:
+        self._overlay.remove()
+        Gui.Selection.removeObserver(self)
 
     def _stop(self) -> None:
-        """Drop what is being computed."""
         if self._worker is not None:
             self._worker.cancel()
-
-    def getStandardButtons(self) -> int:
-        """OK and Cancel."""
-        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
 
 
 def _names() -> tuple[str, ...]:

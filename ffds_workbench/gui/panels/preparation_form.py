@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from ..qt import QtCore, QtWidgets
 from ..translating import tr
-from ..widgets import Form, ProgressBar, choice, folded, length, named, wrapped
+from ..widgets import Form, ProgressBar, choice, folded, length, named, warning, wrapped
 
 _FARTHEST = 1e7
+"""Largest length and coordinate that can be entered, mm."""
 STAYS, GOES = 0x8AE0FFFF, 0xE6194BFF
 """Colours of the points that a step leaves, and of those that it takes away."""
 
@@ -81,9 +82,8 @@ class PreparationForm(Form):
         self._step = choice("FfdsLookAt", [(tr("All steps"), "")], tr("The step that the view shows"))
         self._state = choice("FfdsState", [(tr("Before and after"), "both"), (tr("Before"), "before"),
                                            (tr("After"), "after")], tr("Which of its points the view shows"))
-        self._figures, self._message = wrapped("FfdsFigures"), wrapped("FfdsMessageLabel")
+        self._figures, self._message = wrapped("FfdsFigures"), warning("FfdsMessageLabel")
         self._figures.setTextFormat(QtCore.Qt.RichText)
-        self._message.setStyleSheet("color: #b3401f")
         self._progress = named(ProgressBar(), "FfdsProgressBar")
         self._progress.setVisible(False)
 

@@ -15,15 +15,16 @@ from ...objects.jobs.preparation_job import prepare
 from ...objects.scans import scan_points
 from ...scan.preparation.spacing import spacing
 from .. import running
-from ..qt import QtCore, QtWidgets, number_of
+from ..qt import QtCore
 from ..translating import said, tr
 from ..view3d.overlay import Overlay, points_node
-from .closing import Closing
+from .closing import TaskPanel
 from .preparation_form import GOES, STAYS, PreparationForm, titles
 
 _REST_MS = 400
 """The preview begins when nothing was touched for so long."""
 _SIZES = {GOES: 2.0, STAYS: 3.0}
+"""Of the points in the view, pixels."""
 
 
 def open_panel(scans: Sequence[Any], part: Any = None) -> None:
@@ -32,7 +33,7 @@ def open_panel(scans: Sequence[Any], part: Any = None) -> None:
         Gui.Control.showDialog(PreparationPanel(scans, part))
 
 
-class PreparationPanel:
+class PreparationPanel(TaskPanel):
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, scans: Sequence[Any], part: Any) -> None:
@@ -42,7 +43,6 @@ class PreparationPanel:
         self._origin = np.round(self._given.mean(axis=0))
         self._found: api.PreparedScan | None = None
         self._worker: running.Worker | None = None
-        self._open = True
         self._view = Gui.getDocument(self._document.Name).ActiveView
         self.form = PreparationForm([scan.Label for scan in scans], part.Label if part is not None else "",
                                     self._given, spacing(self._given), self._eye)
@@ -51,11 +51,10 @@ class PreparationPanel:
         self._rest.timeout.connect(self._begin)
         self.form.changed.connect(self._changed)
         self.form.looked_at.connect(self._draw)
-        self.form.destroyed.connect(self._let_go)
         Gui.Selection.clearSelection()
         self._overlay = Overlay(self._document.Name)
         self._overlay.cover(*scans)
-        self._closing = Closing(self._document.Name, self._stop, self._close)
+        self._watch(self._document.Name)
         self._draw()
         self._changed()
 
@@ -138,33 +137,10 @@ class PreparationPanel:
                          f"prepare_scan([{names}], {running.name_of(part)}{settings})")
         return False
 
-    def reject(self) -> bool:
-        """Cancel: drop running work and leave the document as it is."""
-        self._close()
-        return True
-
-    def _close(self) -> None:
-        if self._open:
-            self._let_go()
-            QtCore.QTimer.singleShot(0, Gui.Control.closeDialog)
-
-    def _let_go(self, *_: Any) -> None:
-        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
-        if not self._open:
-            return
-        self._open = False
-        try:
-            self._closing.release()
-            self._stop()
-        finally:
-            self._overlay.remove()
+    def _clean_up(self) -> None:
+        self._overlay.remove()
 
     def _stop(self) -> None:
-        """Drop what is being computed."""
         if self._worker is not None:
             self._worker.cancel()
             self._worker = None
-
-    def getStandardButtons(self) -> int:
-        """OK and Cancel."""
-        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)

@@ -13,10 +13,10 @@ from ...report import verdict
 from .. import giving_way
 from ..qt import QtCore, QtGui, QtWidgets, number_of
 from ..translating import said, tr
-from ..widgets import Form, named, wrapped
+from ..widgets import DOUBTFUL, Form, named, wrapped
 from .closing import Closing
 
-_GOOD, _DOUBTFUL = "#2e7d43", "#b3401f"
+_GOOD = "#2e7d43"
 _NAME = QtCore.Qt.UserRole
 
 
@@ -83,7 +83,7 @@ class ResultPage:
         """Show what the part's report says now."""
         report = report_of(self._item)
         good = verdict.fits(report, report["deviation_after"])
-        self._verdict.setText(f"<b>{self._item.Label}</b><br><span style='color: {_GOOD if good else _DOUBTFUL}'>"
+        self._verdict.setText(f"<b>{self._item.Label}</b><br><span style='color: {_GOOD if good else DOUBTFUL}'>"
                               f"{said(verdict.verdict_sentence(report))}</span><br>"
                               + tr("All faces, edges and corners are those of the nominal part."))
         self._table.fill(report)
@@ -194,7 +194,7 @@ class _Table(QtWidgets.QTableWidget):
                 if 0 < column < len(cells) - 1:
                     entry.setTextAlignment(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter)
                 if column == 2 and after:
-                    entry.setForeground(QtGui.QColor(_GOOD if verdict.fits(report, after) else _DOUBTFUL))
+                    entry.setForeground(QtGui.QColor(_GOOD if verdict.fits(report, after) else DOUBTFUL))
                 self.setItem(row, column, entry)
 
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from ...objects.seams import chosen_names, keys_of, stations_of
 from .. import giving_way, running
-from ..qt import QtCore, QtWidgets, number_of
+from ..qt import QtCore, QtWidgets
 from ..translating import tr
 from ..view3d.overlay import Overlay, bright_node
 from ..widgets import Form, named, wrapped
-from .closing import Closing
+from .closing import TaskPanel
 
 _KEY = QtCore.Qt.UserRole
 
@@ -28,11 +28,11 @@ def open_panel(item: Any) -> None:
         Gui.Control.showDialog(SeamsPanel(item))
 
 
-class SeamsPanel:
+class SeamsPanel(TaskPanel):
     """FreeCAD's task panel. Nothing is written into the document before OK."""
 
     def __init__(self, item: Any) -> None:
-        self._item, self._open = item, True
+        self._item = item
         self.form = Form()
         self.form.setWindowTitle(tr("Weld seams"))
         self._list = named(QtWidgets.QTreeWidget(), "FfdsSeams", tr(
@@ -50,8 +50,7 @@ class SeamsPanel:
         self._overlay = Overlay(item.Document.Name)
         self._list.currentItemChanged.connect(self._light)
         Gui.Selection.clearSelection()
-        self._closing = Closing(item.Document.Name, lambda: None, self._close)
-        self.form.destroyed.connect(self._let_go)
+        self._watch(item.Document.Name)
 
     def _fill(self) -> None:
         """One row per seam, those of the programs first and in their order."""
@@ -91,25 +90,8 @@ class SeamsPanel:
                      f"choose_seams({running.name_of(self._item)}, {names}, keep_failing={failing})")
         return True
 
-    def reject(self) -> bool:
-        """Cancel."""
-        self._let_go()
-        return True
-
-    def _close(self) -> None:
-        self._let_go()
-        Gui.Control.closeDialog()
-
-    def _let_go(self, *_: Any) -> None:
-        """Leave nothing behind, also where FreeCAD closed the panel without asking it."""
-        if self._open:
-            self._open = False
-            self._closing.release()
-            self._overlay.remove()
-
-    def getStandardButtons(self) -> int:
-        """OK and Cancel."""
-        return number_of(QtWidgets.QDialogButtonBox.Ok | QtWidgets.QDialogButtonBox.Cancel)
+    def _clean_up(self) -> None:
+        self._overlay.remove()
 
 
 def _cells(record: dict[str, Any]) -> list[str]:

@@ -20,9 +20,10 @@ PICKED, WRONG, SHOWN = 0xF29A2EFF, 0xC9352BFF, 0x2E9E4FFF
 REST = 0x2673BF66
 """Packed colour of scan points that do not lie on a previewed face: half transparent."""
 _RESTING = 15_000
-"""Scan points of which those are drawn."""
+"""Scan points that are drawn beside the previewed faces (unit: a picture hardly changes with more)."""
 _BESIDE = 0.02
-"""Of the part's size: scan points nearer than this to the corners of a previewed face's cells are its own."""
+"""Of the part's size: scan points nearer than this to the corners of a previewed face's cells are its own (unit: what
+lies farther off is worth a pick)."""
 _DEFLECTION = 1 / 800
 """Of the part's size, in the drawing of faces that are not deformed."""
 
@@ -56,7 +57,7 @@ class PreviewDrawing:
         """The scan beside the faces that it deforms: there are more to pick."""
         key = job.scan, tuple(patch.name for patch in scanned)
         if self._left is None or self._left[0] is not key[0] or self._left[1] != key[1]:
-            points = every_nth_of(job.scan.points)
+            points = job.scan.points[:: max(1, len(job.scan.points) // _RESTING)]
             corners = np.concatenate([patch.points[np.unique(patch.triangles)] for patch in scanned])
             far = cKDTree(corners).query(points)[0] > _BESIDE * job.source.model.shape.BoundBox.DiagonalLength
             self._left = *key, points[far]
@@ -69,11 +70,6 @@ class PreviewDrawing:
         if self._others is None or self._others[0] != key:
             self._others = key, _plain_faces(shape, deformed, frozen)
         return self._others[1]
-
-
-def every_nth_of(points: Any) -> Any:
-    """Some of the points (n, 3), spread evenly over their order."""
-    return points[:: max(1, len(points) // _RESTING)]
 
 
 def marks(shape: Part.Shape, colours: Mapping[str, int]) -> list[Any]:

@@ -21,8 +21,8 @@ _ABOVE, _BELOW = 0xC9352BFF, 0x2F7FC8FF
 
 
 def packed_colours(values: Array, limit: float, tolerance: float = 0.0, steps: int = SMOOTH) -> NDArray[np.uint32]:
-    """0xRRGGBBAA of deviations (n,) in mm: the scale ends at ±``limit``, in ``steps`` of one colour each;
-    ±``tolerance`` is one green, NaN grey."""
+    """0xRRGGBBAA of deviations (n,) in mm: the scale ends at ±``limit``, in ``steps`` of one colour each
+    (or `SMOOTH`, `PASS_FAIL`); ±``tolerance`` is one green, NaN grey."""
     if steps == PASS_FAIL:
         packed = np.where(values > 0, np.uint32(_ABOVE), np.uint32(_BELOW))
         packed[np.abs(values) <= tolerance] = WITHIN

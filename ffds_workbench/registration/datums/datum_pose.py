@@ -23,6 +23,7 @@ _SETTLED = 1e-10
 _TOLD = 1e-3
 """Singular values, over those of the whole part's turning, below which a datum tells nothing (unit: noise)."""
 FREEDOMS = ("tx", "ty", "tz", "rx", "ry", "rz")
+"""Of a motion: shifts along the axes of the model's frame, and turns about them."""
 
 
 @dataclass(frozen=True)
@@ -94,27 +95,30 @@ def _meet(feature: DatumFeature, points: Array, pose: Array, basis: Array, size:
     told = left = basis
     for _ in range(_STEPS):
         here = apply(pose, points)
-        told, left = _split(twist_rows(here, feature.direction(here)) @ basis, basis, len(here), feature.free_size)
-        if not told.shape[1]:
+        rows, off = twist_rows(here, feature.direction(here)) @ basis, feature.distance(here)
+        if feature.free_size:  # the radius takes up the means
+            rows, off = rows - rows.mean(axis=0), off - off.mean()
+        values, turned = singular(rows)
+        tells = values > _TOLD * np.sqrt(len(here))
+        if not tells.any():
             return pose, 0, basis
-        rows, off = _centred(twist_rows(here, feature.direction(here)) @ told, feature.distance(here),
-                             feature.free_size)
-        step = told @ np.linalg.lstsq(rows, -off, rcond=None)[0]
+        told, left = basis @ turned[tells].T, basis @ turned[~tells].T
+        step = told @ np.linalg.lstsq(rows @ turned[tells].T, -off, rcond=None)[0]
         pose = twist_motion(step, np.zeros(3)) @ pose
-        if np.abs(step * np.array([size] * 3 + [1.0] * 3)).max() < _SETTLED * size:
+        if step_length(step, size) < _SETTLED * size:
             break
     return pose, told.shape[1], left
 
 
-def _split(rows: Array, basis: Array, count: int, free_size: bool) -> tuple[Array, Array]:
-    """Twists of a basis that rows (n, k) tell, and those that they do not."""
-    centred, _ = _centred(rows, np.zeros(count), free_size)
-    _, values, turned = np.linalg.svd(centred, full_matrices=True)
-    values = np.concatenate([values, np.zeros(len(turned) - len(values))]) / np.sqrt(count)
-    told = values > _TOLD
-    return basis @ turned[told].T, basis @ turned[~told].T
+def singular(rows: Array) -> tuple[Array, Array]:
+    """Singular values (k,) of ``rows`` (n, k), zeros where n < k, and their directions, a row each: (k, k).
+
+    Those of the triangle of a QR decomposition: the left directions, (n, n), are of no use and too large.
+    """
+    _, values, turned = np.linalg.svd(np.linalg.qr(rows, mode="r"))
+    return np.concatenate([values, np.zeros(len(turned) - len(values))]), turned
 
 
-def _centred(rows: Array, off: Array, free_size: bool) -> tuple[Array, Array]:
-    """Rows and distances without their means, where a radius takes these up."""
-    return (rows - rows.mean(axis=0), off - off.mean()) if free_size else (rows, off)
+def step_length(step: Array, size: float) -> float:
+    """How far the twist ``step`` (6,) about the origin moves a part of that ``size`` at most, about, in mm."""
+    return float(np.abs(step * np.array([size] * 3 + [1.0] * 3)).max())

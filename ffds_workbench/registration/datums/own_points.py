@@ -11,19 +11,19 @@ from scipy.spatial import cKDTree
 from ..arrays import Array
 from ..face_geometry import FaceGeometry
 from ..motions import twist_rows
-from ..robust_weights import robust_sigma
+from ..robust_weights import NOISE_ENDS_SIGMAS, robust_sigma
 from ..uv_raster import make_raster
 
 _CELLS = 96
-"""Cells of a face's raster (unit: its edges are told to a hundredth of it)."""
+"""Cells of a face's raster, which has 16 per direction at least: its border is told to a sixteenth of its sides (unit:
+time)."""
 _MARGIN = 0.25
-"""Over the largest depth within the face: points nearer to its border may show another one (unit)."""
+"""Over the largest depth within the face: points nearer to its border may show another one (unit). Rasters know
+depths up to `LARGEST_DEPTH`, so that this is less on large faces."""
 _REACH = 0.02
 """Over the size of the part: how far a datum face may lie off its nominal place (unit)."""
 _FEWEST_POINTS = 10
 """Points of a face below which all are taken (theory: a motion and a size have seven unknowns)."""
-_OFF = 4.0
-"""Standard deviations from the face's own points beyond which a point is none (theory: one in 16,000)."""
 
 
 def points_of_faces(faces: Sequence[FaceGeometry], wanted: Sequence[int], points: Array, size: float) -> list[Array]:
@@ -64,5 +64,5 @@ def _together(points: Array, normal: Array, height: Array) -> NDArray[np.bool_]:
         told = np.linalg.lstsq(rows[kept], height[kept], rcond=1e-6)[0]
         left = height - rows @ told
         sigma = robust_sigma(left[kept])
-        kept = np.abs(left) <= max(_OFF * sigma, 1e-9)
+        kept = np.abs(left) <= max(NOISE_ENDS_SIGMAS * sigma, 1e-9)
     return kept

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Array, Index
 from ..motions import apply, twist_motion, twist_rows
-from .datum_pose import DatumFit, DatumPose, free_twists
+from .datum_pose import DatumFit, DatumPose, free_twists, singular, step_length
 
 _RADIUS = 0.03
 """Of the part's size: scan points this near to a reference point may tell where the surface is there (unit)."""
@@ -22,7 +22,7 @@ _STEPS = 15
 _SETTLED = 1e-9
 """Size of a step in mm that is none (unit: rounding)."""
 _TOLD = 1e-3
-"""Singular values below which the points tell nothing (unit: noise)."""
+"""Singular values, over the largest, below which the points tell nothing (unit: noise)."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ def align_on_points(references: Sequence[ReferencePoint], points: Array, start: 
     points : (n, 3) of the scan in mm
     start : (4, 4) T_model_scan to start from
     size : of the part in mm
-    locked : degrees of freedom that stay as they are in ``start``
+    locked : of `FREEDOMS`, in the frame of the model: they stay as they are in ``start``
     """
     pose, basis, tree = start, free_twists(locked, size), cKDTree(points)
     place = np.array([reference.place for reference in references])
@@ -55,8 +55,7 @@ def align_on_points(references: Sequence[ReferencePoint], points: Array, start: 
         heights, seen = _heights(place, along, points, tree, pose, _RADIUS * size)
         used = seen > 0
         rows = (weight[:, None] * (twist_rows(place, along) @ basis))[used]
-        _, values, turned = np.linalg.svd(rows, full_matrices=True)
-        values = np.concatenate([values, np.zeros(len(turned) - len(values))])
+        values, turned = singular(rows)
         which = values > _TOLD * values.max(initial=1e-12)
         told = int(which.sum())
         if not told:
@@ -64,7 +63,7 @@ def align_on_points(references: Sequence[ReferencePoint], points: Array, start: 
         moves = basis @ turned[which].T
         step = moves @ np.linalg.lstsq(rows @ turned[which].T, -(weight * heights)[used], rcond=None)[0]
         pose = twist_motion(step, np.zeros(3)) @ pose
-        if np.abs(step * np.array([size] * 3 + [1.0] * 3)).max() < _SETTLED:
+        if step_length(step, size) < _SETTLED:
             break
     fits = tuple(DatumFit(int(count), abs(float(height)), float(height), 1 if count else 0)
                  for count, height in zip(seen, heights, strict=True))
@@ -78,11 +77,11 @@ def _heights(place: Array, along: Array, points: Array, tree: cKDTree, pose: Arr
     near = tree.query_ball_point(apply(back, place), radius)
     heights, seen = np.zeros(len(place)), np.zeros(len(place), dtype=np.intp)
     for number, found in enumerate(near):
-        offset = apply(pose, points[found]) - place[number] if found else np.zeros((0, 3))
-        height = offset @ along[number]
-        beside = offset - np.outer(height, along[number])
         if len(found) < _POINTS[0]:
             continue
+        offset = apply(pose, points[found]) - place[number]
+        height = offset @ along[number]
+        beside = offset - np.outer(height, along[number])
         kept = np.argsort(np.linalg.norm(beside, axis=1), kind="stable")[: _POINTS[1]]
         rows = np.column_stack([np.ones(len(kept)), beside[kept]])
         heights[number] = np.linalg.lstsq(rows, height[kept], rcond=1e-6)[0][0]

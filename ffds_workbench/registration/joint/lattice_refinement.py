@@ -9,11 +9,11 @@ from scipy.linalg import lstsq
 from scipy.spatial import cKDTree
 
 from ..arrays import Array
-from ..splines import greville
+from ..splines import cubic, greville
 from .data import patch_sums
 from .iteration import EdgeCache, ShapeMatrices, State, StepCache
 from .problem import Problem
-from .surfaces import FaceLattice, cubic
+from .surfaces import FaceLattice
 
 _MODEL_SHARE = 1 / 3
 """Share of the model's error in the variance of a patch's mean from which the spans of a face are divided

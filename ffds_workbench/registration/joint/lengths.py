@@ -32,7 +32,7 @@ class Lengths:
     spacing : between neighbouring points of the scan
     noise : standard deviation of the scan's points, and their ``resolution``
     reach : how far the scan may lie from the nominal part
-    farthest : how far its points lie that are compared with the nominal part at all, by the same face
+    farthest : how far from the part the points may lie that judge a face at the end; the ``reach`` or more
     """
 
     size: float

@@ -55,7 +55,8 @@ class Problem:
     sides : where the faces lie at their edges
     lengths : of the solve
     free_motions : of solids within their own surface
-    margin : (spans,) distance from the border that the foot points of the scan must keep, in mm
+    margin : (spans,) distance from the border that the foot points of the scan must keep, in mm; infinite on faces that
+        hold none
     body_size : (spans,) size in mm of the solid that a span belongs to
     cell_side : usual length in mm of the sides of the cells
     """
@@ -84,6 +85,11 @@ class Problem:
     def without_points_on(self, faces: Sequence[int]) -> Problem:
         """The same with ``faces`` that hold no scan points: their neighbours carry them along."""
         return replace(self, margin=np.where(np.isin(self.lattices.face_of_span, faces), np.inf, self.margin))
+
+    @property
+    def widest_margin(self) -> float:
+        """The largest margin of the faces that hold points, in mm."""
+        return float(self.margin[np.isfinite(self.margin)].max())
 
     @property
     def distance(self) -> Array:

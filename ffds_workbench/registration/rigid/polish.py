@@ -11,8 +11,8 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Array
 from ..motions import angle, apply, twist_motion, twist_rows
-from ..scan_points import Sketch, thin, workers
 from ..robust_weights import TUKEY_SIGMAS, robust_sigma, tukey
+from ..scan_points import Sketch, thin, workers
 from .deformation import DisplacementField, match_deformed, pose_of_deformed_part
 from .model import Target, kept_with_target, nearest_field
 from .refine import ScanEnds, find_scan_ends, gauss_newton, points_near_rims, refine

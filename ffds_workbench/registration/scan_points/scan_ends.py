@@ -13,8 +13,8 @@ import numpy as np
 from ..arrays import Array, Index
 
 _WITHIN_NOISE = 0.4
-"""Of the noise's standard deviation: as many points as lie within it at the end are passed over (theory: of the points
-that normal noise spreads about an end, half lie within 0.67 standard deviations of it, on either side)."""
+"""Of the noise's standard deviation σ: as many points as lie within it are passed over (theory: of ρ points per mm,
+normal noise carries ρ σ/√(2π) over an end)."""
 
 
 def outermost_points(station: Index, outward: Array, count: int, ranks: int) -> tuple[Array, Index]:

@@ -57,7 +57,7 @@ def fit(points: Array, vectors: Array, tolerance: float, sigma: Array | None = N
     longest = max(float((high - low).max()), 1e-9)
     least = max(_spacing(points) / _CELLS_PER_SPACING, longest / _MOST_CELLS)
     gradient, value = _linear(points - low, vectors, weight)
-    field = lattice_over(low, high, longest / _FIRST_CELLS, gradient=gradient, value=value)
+    field = lattice_over(low, high, longest / _FIRST_CELLS, gradient, value)
     noisy = bool(known.any())
     while True:
         left = vectors - field(points)

@@ -6,13 +6,13 @@ Owns the evaluation of such a field and its exact refinement; points and vectors
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy.ndimage import map_coordinates
 from scipy.sparse import csr_matrix
 
 from ..arrays import Array
+from ..splines import cubic
 
 _MARGIN = 2
 """Control points that the lattice has beyond the box on each side (theory: a cubic needs one, and as many for its cells
@@ -65,7 +65,7 @@ class SpaceField:
         places = self._places(points)
         cells = np.minimum(np.floor(places), np.array(self.control_points.shape[:3]) - 3.0)
         local = places - cells
-        weights = [_cubic(local[:, k]) for k in range(3)]
+        weights = [cubic(local[:, k]) for k in range(3)]
         product = np.einsum("ni,nj,nk->nijk", *weights).reshape(len(points), 64)
         shape = self.control_points.shape[:3]
         index = [cells[:, k].astype(np.intp)[:, None] + np.arange(-1, 3) for k in range(3)]
@@ -93,32 +93,25 @@ class SpaceField:
                        offset=factor * self.offset)
 
 
-def lattice_over(low: Array, high: Array, cell: float, **linear: Any) -> SpaceField:
+def lattice_over(low: Array, high: Array, cell: float, gradient: Array, value: Array) -> SpaceField:
     """A field without control points moved, whose lattice covers a box.
 
     Parameters
     ----------
     low, high : (3,) corners of the box in mm
     cell : side of the cells in mm
-    linear : ``gradient`` (3, 3) and the ``value`` (3,) in mm of the linear part at ``low``
+    gradient, value : (3, 3), and (3,) in mm at ``low``, of the linear part
     """
     cells = np.maximum(np.ceil((high - low) / cell - 1e-9), 1).astype(int)
     origin = low - _MARGIN * cell
-    gradient = np.asarray(linear["gradient"])
     return SpaceField(origin, cell, np.zeros((*(cells + 1 + 2 * _MARGIN), 3)), gradient,
-                      np.asarray(linear["value"]) + gradient @ (origin - low))
+                      value + gradient @ (origin - low))
 
 
 def _halved(points: Array, axis: int) -> Array:
     """Control points of half the spacing along an axis, from the second one to the last but one: the margin stays."""
     p = np.moveaxis(points, axis, 0)
     finer = np.empty((2 * len(p) - 5, *p.shape[1:]))
-    finer[0::2] = (p[:-2] + 6.0 * p[1:-1] + p[2:])[: len(p) - 2] / 8.0
+    finer[0::2] = (p[:-2] + 6.0 * p[1:-1] + p[2:]) / 8.0
     finer[1::2] = 0.5 * (p[1:-2] + p[2:-1])
     return np.moveaxis(finer, 0, axis)
-
-
-def _cubic(x: Array) -> Array:
-    """The four cubic B-splines on a span, (n,) to (n, 4)."""
-    y = 1.0 - x
-    return np.stack([y**3, 3 * x**3 - 6 * x**2 + 4, 3 * y**3 - 6 * y**2 + 4, x**3], axis=-1) / 6.0

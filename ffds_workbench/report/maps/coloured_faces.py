@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...registration.arrays import Array, Index
 from ...registration.footpoints import surface_coordinates
 from ...registration.uv_raster import Raster
-
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 
 def corner_values(raster: Raster, points: Array, deviations: Array) -> Array:

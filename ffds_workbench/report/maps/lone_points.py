@@ -9,8 +9,10 @@ from scipy.spatial import cKDTree
 from ...registration.arrays import Array
 
 _NEIGHBOURS = 8
+"""The neighbour whose distance tells how dense points are about one (unit: fewer stray points than that lie
+together)."""
 _FARTHER = 4.0
-"""Times the usual distance of that neighbour: on a surface, where points are sixteen times as sparse as usual."""
+"""Times the usual distance of that neighbour (unit: on a surface, points are then sixteen times as sparse as usual)."""
 
 
 def lone_points(points: Array) -> NDArray[np.bool_]:

@@ -20,6 +20,7 @@ THREE = Path("/usr/share/javascript/three")
 """Where Debian's package libjs-three puts three.js."""
 _PARTS = ("three.min.js", "examples/js/controls/OrbitControls.js")
 _NO_DATA = -32768
+"""What stands in the scene for no deviation: the one whole number of two bytes that no step has."""
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #1d2733; background: #fff; margin: 0 auto; padding: 1.5rem;
        max-width: 1100px }

@@ -13,10 +13,10 @@ from .scene import ColouredPart
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
 _INK, _GREY = "#1d2733", "#b4bac2"
-_MOST_TRIANGLES = 40_000
 _STATES = (("before", "Nominal part"), ("after", "As-built part"))
 
 
@@ -58,17 +58,17 @@ def draw(figure: Figure, scene: ColouredPart, towards: Array,
     bar.ax.tick_params(labelsize=8)
 
 
-def _draw_state(axes: Axes, scene: ColouredPart, values: Array, view: Array, scale: object) -> None:
+def _draw_state(axes: Axes, scene: ColouredPart, values: Array, view: Array, scale: ScalarMappable) -> None:
     from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.colors import to_rgba
 
     seen = scene.points @ view.T
     corners = seen[scene.triangles]
-    step = max(1, len(corners) // _MOST_TRIANGLES)
-    corners, shown = corners[::step], values[scene.triangles][::step].mean(axis=1)
+    shown = values[scene.triangles].mean(axis=1)
     order = np.argsort(corners[:, :, 2].mean(axis=1))
     known = np.isfinite(shown)
-    colours = scale.to_rgba(np.nan_to_num(shown))  # type: ignore[attr-defined]
-    colours[~known] = [int(_GREY[k : k + 2], 16) / 255 for k in (1, 3, 5)] + [1.0]
+    colours = scale.to_rgba(np.nan_to_num(shown))
+    colours[~known] = to_rgba(_GREY)
     axes.add_collection(PolyCollection(corners[order, :, :2], facecolors=colours[order], edgecolors=colours[order],
                                        linewidths=0.3, rasterized=True))
     depth = float(np.ptp(seen[:, 2])) or 1.0

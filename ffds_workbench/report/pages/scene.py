@@ -88,4 +88,4 @@ def make_scene(built: Sequence[FaceGeometry], states: Sequence[Sequence[FaceDevi
     used, inverse = np.unique(np.concatenate(triangles), return_inverse=True)
     before, after = (np.concatenate(found)[used] for found in values)
     return ColouredPart(everything[used], inverse.reshape(-1, 3), before, after, np.concatenate(face_of),
-                 tuple(face.name for face in built), edges)
+                        tuple(face.name for face in built), edges)

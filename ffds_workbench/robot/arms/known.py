@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ... import RESOURCES
 from ...errors import InputError
-from ...registration.arrays import Array
+from ...registration.motions import motion
 from ..kinematics import Chain, chain_of, family
 from .arm import Arm, LinkSizes, capsules_of
 from .urdf import read_urdf
@@ -71,7 +72,7 @@ def _opw_chain(entry: Mapping[str, Any]) -> Chain:
               (a1 + a2, 0, c1 + c2 + c3)]
     y, z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     axes = np.array([z, y, y, z, y, z]) * np.array(entry["signs"], dtype=float)[:, None]
-    upright = Chain(axes, np.array(places, dtype=float), _shift((a1 + a2, 0, c1 + c2 + c3 + c4)))
+    upright = Chain(axes, np.array(places, dtype=float), motion(np.eye(3), np.array([a1 + a2, 0, c1 + c2 + c3 + c4])))
     # The model's angle is sign · joint − offset: at the maker's zero every joint of the model stands at −offset.
     start = -np.radians(entry["offsets"]) * np.array(entry["signs"], dtype=float)
     links = upright.links(start)
@@ -84,13 +85,5 @@ def _dh_chain(rows: list[list[float]]) -> Chain:
     after, steps = np.eye(4), []
     for d, a, alpha in rows:
         steps.append((after, z))
-        cosine, sine = np.cos(np.radians(alpha)), np.sin(np.radians(alpha))
-        after = _shift((a, 0.0, d))
-        after[1:3, 1:3] = [[cosine, -sine], [sine, cosine]]
+        after = motion(Rotation.from_euler("x", alpha, degrees=True).as_matrix(), np.array([a, 0.0, d]))
     return chain_of(steps, after)
-
-
-def _shift(by: tuple[float, float, float]) -> Array:
-    pose = np.eye(4)
-    pose[:3, 3] = by
-    return pose

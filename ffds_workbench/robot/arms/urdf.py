@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from ...scan.xml_text import parse
 from ..kinematics import chain_of, family
 from .arm import Arm, LinkSizes, capsules_of
@@ -20,9 +20,11 @@ _FLANGES = ("tool0", "flange")
 """What ROS-Industrial calls the flange; without one, it is the last link of the chain."""
 _MAKERS = ("kuka", "abb", "fanuc", "yaskawa", "motoman", "kawasaki", "ur")
 _SECONDS_TO_FULL_SPEED = 0.5
+"""In s, of every joint: URDF has no accelerations (unit: an assumption, as in the files of the known arms)."""
 _SLOW = math.radians(90.0)
-"""Speed in rad/s of a joint for which the file has none."""
+"""Speed in rad/s of a joint for which the file has none (unit: slower than any joint of the known arms)."""
 _SIZES = LinkSizes(105.0, 120.0, 85.0, 65.0)
+"""How thick the links are taken to be (unit: as welding arms of 1.4 m reach are in ``resources/robots``)."""
 
 
 def read_urdf(path: Path) -> Arm:
@@ -32,12 +34,12 @@ def read_urdf(path: Path) -> Arm:
     ------
     InputError : the file cannot be read, has no six turning joints in a row, or they have no closed form
     """
-    joints = _joints(path)
-    chain = [joint for joint in _from_the_base(joints) if joint.get("type") in ("revolute", "continuous")]
+    way = _from_the_base(_joints(path))
+    chain = [joint for joint in way if joint.get("type") in ("revolute", "continuous")]
     if len(chain) != 6:
         raise InputError(f"The robot {path} has {len(chain)} turning joints one after the other: six are needed.")
     steps, at = [], np.eye(4)
-    for joint in _from_the_base(joints):
+    for joint in way:
         at = at @ _origin(joint)
         if joint in chain:
             axis = _vector(joint.find("axis"), "xyz", "1 0 0")
@@ -47,12 +49,11 @@ def read_urdf(path: Path) -> Arm:
     limits = np.array([_limits(joint) for joint in chain])
     speeds = np.array([_number(joint.find("limit"), "velocity", _SLOW) or _SLOW for joint in chain])
     known = family(arm)
-    sizes = _SIZES
     name = path.stem
     maker = next((maker for maker in _MAKERS if name.lower().startswith(maker)), "")
     reach = float(np.linalg.norm(known.shoulder[:2] - arm.points[0][:2])) + sum(known.lengths)
     return Arm(name, {"motoman": "yaskawa"}.get(maker, maker), known, limits, speeds, speeds / _SECONDS_TO_FULL_SPEED,
-               reach, capsules_of(arm, sizes), np.zeros(3), False, (f"The file {path.name}.",),
+               reach, capsules_of(arm, _SIZES), np.zeros(3), False, (f"The file {path.name}.",),
                ("How thick its links are: the file's meshes are not read, usual radii stand in.",
                 f"Accelerations: every joint is taken to need {_SECONDS_TO_FULL_SPEED:g} s to its full speed."))
 
@@ -73,7 +74,7 @@ def _joints(path: Path) -> list[ElementTree.Element]:
     return root.findall("joint")
 
 
-def _from_the_base(joints: list[ElementTree.Element]) -> Iterator[ElementTree.Element]:
+def _from_the_base(joints: list[ElementTree.Element]) -> list[ElementTree.Element]:
     """The joints from the base to the flange: of several ways that with the most turning joints."""
     children = {joint: _link(joint, "child") for joint in joints}
     parents = {joint: _link(joint, "parent") for joint in joints}
@@ -92,7 +93,7 @@ def _from_the_base(joints: list[ElementTree.Element]) -> Iterator[ElementTree.El
         turning = sum(joint.get("type") in ("revolute", "continuous") for joint in way)
         return turning, bool(way) and children[way[-1]] in _FLANGES, len(way)
 
-    yield from max(ways, key=worth)
+    return max(ways, key=worth)
 
 
 def _link(joint: ElementTree.Element, which: str) -> str:
@@ -101,11 +102,9 @@ def _link(joint: ElementTree.Element, which: str) -> str:
 
 
 def _origin(joint: ElementTree.Element) -> Array:
-    pose = np.eye(4)
     origin = joint.find("origin")
-    pose[:3, 3] = 1000.0 * _vector(origin, "xyz", "0 0 0")
-    pose[:3, :3] = Rotation.from_euler("xyz", _vector(origin, "rpy", "0 0 0")).as_matrix()
-    return pose
+    turn = Rotation.from_euler("xyz", _vector(origin, "rpy", "0 0 0")).as_matrix()
+    return motion(turn, 1000.0 * _vector(origin, "xyz", "0 0 0"))
 
 
 def _limits(joint: ElementTree.Element) -> tuple[float, float]:

@@ -17,7 +17,7 @@ FREE = (-math.pi, math.pi)
 
 @dataclass(frozen=True)
 class Cell:
-    """See `read_cell` for the file.
+    """See `read_cell` for the file. The defaults (unit) are assumptions for a cell of which nothing is known.
 
     Attributes
     ----------
@@ -44,7 +44,8 @@ class Cell:
 
 
 def default_base(arm: Arm) -> Array:
-    """Where a robot stands that no cell tells of: 0.6 of its reach behind the model's origin, upright."""
+    """Where a robot stands that no cell tells of: 0.6 of its reach behind the model's origin, upright
+    (unit: well within it)."""
     pose = np.eye(4)
     pose[0, 3] = -0.6 * arm.reach
     return pose

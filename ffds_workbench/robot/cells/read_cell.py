@@ -2,9 +2,8 @@
 """``cell.json``: read, and refused in one sentence where it makes no sense."""
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -13,9 +12,11 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from ...seams.programs.angles import from_kuka_angles
 from ..arms import Arm, read_arm
 from ..clearance import Box, Cylinder, Solid, Facets, triangles_of_file
+from ..entries import checked_object, read_object
 from .cell import FREE, Cell, default_base
 from .torch import Torch
 
@@ -35,7 +36,8 @@ def read_cell(path: Path | None, robot: str | Path | None) -> Cell:
     ------
     InputError : the file cannot be read, has unknown keys or values that make no sense
     """
-    entries: Mapping[str, Any] = {} if path is None else _entries(path)
+    entries: Mapping[str, Any] = {} if path is None else checked_object(
+        read_object(path, "cell"), _KEYS, "cell")
     if robot is None and "robot" not in entries:
         raise InputError("No robot was named: give --robot, or name it in the cell.")
     arm = read_arm(entries["robot"] if robot is None else robot)
@@ -55,25 +57,6 @@ def read_cell(path: Path | None, robot: str | Path | None) -> Cell:
                 _torch(entries.get("torch", {})),
                 tuple((name, item) for name, item in found if not isinstance(item, Facets)),
                 tuple((name, item) for name, item in found if isinstance(item, Facets)), **said)
-
-
-def _entries(path: Path) -> Mapping[str, Any]:
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise InputError(f"The cell {path} cannot be read: {error.strerror}.") from error
-    except ValueError as error:
-        raise InputError(f"The cell {path} is not JSON: {error}.") from error
-    if not isinstance(found, Mapping):
-        raise InputError(f"The cell {path} must be one object with the keys {', '.join(_KEYS)}.")
-    _check_keys(found, _KEYS, "cell")
-    return found
-
-
-def _check_keys(entry: Mapping[str, Any], known: Sequence[str], what: str) -> None:
-    unknown = [key for key in entry if key not in known and not key.startswith("$")]
-    if unknown:
-        raise InputError(f"The {what} has an unknown key '{unknown[0]}': there are {', '.join(known)}.")
 
 
 def _numbers(value: object, count: int, what: str) -> Array:
@@ -105,9 +88,7 @@ def _range(value: object, what: str, widest: float) -> tuple[float, float]:
 def _pose(value: object, what: str) -> Array:
     """Of X, Y, Z, A, B, C in mm and degrees."""
     numbers = _numbers(value, 6, f"{what} (X, Y, Z, A, B, C)")
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = from_kuka_angles(numbers[None, 3:])[0], numbers[:3]
-    return pose
+    return motion(from_kuka_angles(numbers[None, 3:])[0], numbers[:3])
 
 
 def _home(value: object, arm: Arm) -> Array:
@@ -118,10 +99,8 @@ def _home(value: object, arm: Arm) -> Array:
 
 
 def _torch(entry: object) -> Torch:
-    if not isinstance(entry, Mapping):
-        raise InputError(f"The cell's torch must be an object with the keys {', '.join(_TORCH)}.")
-    _check_keys(entry, _TORCH, "torch")
-    return Torch(**{name: float(_numbers([value], 1, f"torch's {name}")[0]) for name, value in entry.items()})
+    return Torch(**{name: float(_numbers([value], 1, f"torch's {name}")[0])
+                    for name, value in checked_object(entry, _TORCH, "torch").items()})
 
 
 def _solids(entries: Mapping[str, Any]) -> list[Mapping[str, Any]]:
@@ -135,9 +114,7 @@ def _solids(entries: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 
 
 def _solid(entry: object, folder: Path, number: int) -> tuple[str, Solid | Facets]:
-    if not isinstance(entry, Mapping):
-        raise InputError(f"Solid {number} of the cell must be an object.")
-    _check_keys(entry, ("name", "box", "cylinder", "step", "at"), f"solid {number} of the cell")
+    entry = checked_object(entry, ("name", "box", "cylinder", "step", "at"), f"solid {number} of the cell")
     name = str(entry.get("name", f"solid {number}"))
     pose = _pose(entry["at"], f"{name}'s at") if "at" in entry else np.eye(4)
     if "box" in entry:

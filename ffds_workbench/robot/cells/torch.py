@@ -6,15 +6,18 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from ..clearance import Balls, along, cylinder, joined_balls
 
 
 @dataclass(frozen=True)
 class Torch:
-    """Lengths and radii in mm, the neck's angle in degrees. The defaults are those of a torch with a slim nozzle.
+    """Lengths and radii in mm, the neck's angle in degrees. The defaults are of no maker's torch, but of an
+    ordinary one with a slim nozzle (unit: an assumption; who welds gives the own torch's).
 
     Attributes
     ----------
@@ -44,12 +47,8 @@ class Torch:
     @property
     def tcp(self) -> Array:
         """Pose (4, 4) of the wire's tip on the flange: z along the wire, out of the nozzle; y is the flange's."""
-        angle = math.radians(self.neck_angle)
-        pose = np.eye(4)
-        pose[:3, :3] = [[math.cos(angle), 0.0, math.sin(angle)], [0.0, 1.0, 0.0],
-                        [-math.sin(angle), 0.0, math.cos(angle)]]
-        pose[:3, 3] = (0.0, 0.0, self.body_length) + self._straight * pose[:3, 2]
-        return pose
+        turn = Rotation.from_euler("y", self.neck_angle, degrees=True).as_matrix()
+        return motion(turn, (0.0, 0.0, self.body_length) + self._straight * turn[:, 2])
 
     @property
     def _straight(self) -> float:

@@ -11,9 +11,9 @@ from ...registration.arrays import Array
 from ..arms import Capsule
 
 STANDS_OUT = 0.2
-"""How far in mm a solid may stand out between two of its balls."""
+"""How far in mm a solid may stand out between two of its balls (unit: well within the clearance that is kept)."""
 _RIM = 0.2
-"""Radius in mm of the balls around the flat end of a cylinder, which round its edge off by that."""
+"""Radius in mm of the balls around the flat end of a cylinder, which round its edge off by that (unit, likewise)."""
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from .balls import Balls, joined_balls, of_links
 from .surroundings import Nearness, Surroundings
 
 _COARSE = 4.0
-"""How much thicker in mm the links are taken to be, so that few balls do."""
+"""How much thicker in mm the links are taken to be, so that few balls do (unit: what time is worth)."""
 _CHUNK = 400_000
+"""Balls that are placed at once (unit: what memory is worth)."""
 
 
 @dataclass(frozen=True)

@@ -8,23 +8,24 @@ import FreeCAD
 import numpy as np
 import Part
 
+from ...brep import topology
 from ...brep.model_files import model_file
 from ...registration.arrays import Array
 from .triangles import Facets, joined, triangles
 
 _DEVIATION = 0.05
-"""How far in mm the triangles may be off the faces."""
+"""How far in mm the triangles may be off the faces (unit: far below the clearance that is kept)."""
 
 
 def triangles_of(shape: Part.Shape) -> Facets:
     """The triangles of all solids of a shape; faces that belong to none are taken by themselves."""
     shape.tessellate(_DEVIATION)
-    faces = {face.hashCode(): number for number, face in enumerate(shape.Faces)}
-    solids = [solid.Faces for solid in shape.Solids]
-    owned = {face.hashCode() for members in solids for face in members}
-    loose = [face for face in shape.Faces if face.hashCode() not in owned]
-    groups = [*solids, *([loose] if loose else [])]
-    return joined([_of_faces([(faces.get(face.hashCode(), 0), face) for face in members]) for members in groups])
+    numbers = topology.read(shape).solid_faces
+    groups = [list(zip(of_solid, solid.Faces, strict=True))
+              for of_solid, solid in zip(numbers, shape.Solids, strict=True)]
+    owned = {number for of_solid in numbers for number in of_solid}
+    loose = [(number, face) for number, face in enumerate(shape.Faces) if number not in owned]
+    return joined([_of_faces(members) for members in [*groups, loose] if members])
 
 
 def _of_faces(members: list[tuple[int, Part.Face]]) -> Facets:

@@ -23,10 +23,11 @@ _SAMPLES = 250_000
 _FINEST_SAMPLES = 2.0
 _NEAREST_SAMPLES = 8
 """Cells of the grid and their least size in mm; samples of the surface and their least distance in mm; of how many
-samples the triangles are tried for the exact distance."""
+samples the triangles are tried for the exact distance (unit: what time and memory are worth)."""
 _AROUND = 60.0
-"""How far in mm the grid reaches beyond the part."""
+"""How far in mm the grid reaches beyond the part (unit: what memory is worth)."""
 _CHUNK = 100_000
+"""Points that are measured at once (unit: what memory is worth)."""
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...registration.arrays import Array
+from ...registration.motions import motion
 
 
 @dataclass(frozen=True)
@@ -59,20 +61,13 @@ def chain_of(steps: Sequence[tuple[Array, Array]], flange: Array) -> Chain:
 
 
 def rotation_about(axis: Array, angles: Array) -> Array:
-    """Rotations (…, 3, 3) by ``angles`` (…) in rad about unit axes (3,) or (…, 3), by Rodrigues' formula."""
-    x, y, z = np.moveaxis(np.broadcast_to(axis, (*np.shape(angles), 3)), -1, 0)
-    sine, cosine = np.sin(angles), np.cos(angles)
-    rest = 1.0 - cosine
-    rows = [[cosine + x * x * rest, x * y * rest - z * sine, x * z * rest + y * sine],
-            [x * y * rest + z * sine, cosine + y * y * rest, y * z * rest - x * sine],
-            [x * z * rest - y * sine, y * z * rest + x * sine, cosine + z * z * rest]]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    """Rotations (…, 3, 3) by ``angles`` (…) in rad about unit axes (3,) or (…, 3); NaN where an angle is."""
+    vectors = axis * angles[..., None]
+    return Rotation.from_rotvec(vectors.reshape(-1, 3)).as_matrix().reshape(*vectors.shape, 3)
 
 
 def about(directions: Array, points: Array, angles: Array) -> Array:
-    """Motions (…, 4, 4) that turn by ``angles`` (…) about lines through ``points`` along ``directions``."""
+    """Motions (…, 4, 4) that turn by ``angles`` (…) in rad about lines through ``points`` (…, 3) in mm along unit
+    ``directions`` (…, 3)."""
     turn = rotation_about(directions, angles)
-    motion = np.zeros((*np.shape(angles), 4, 4))
-    motion[..., :3, :3], motion[..., 3, 3] = turn, 1.0
-    motion[..., :3, 3] = points - np.einsum("...ij,...j->...i", turn, np.broadcast_to(points, turn.shape[:-1]))
-    return motion
+    return motion(turn, points - np.einsum("...ij,...j->...i", turn, points))

@@ -16,7 +16,7 @@ from .chain import Chain, rotation_about
 
 _SQUARE, _MEETS = 1e-6, 1e-3
 """Largest cosine of axes that count as square, and distance in mm of axes that count as meeting: files have rounded
-numbers."""
+numbers (unit)."""
 
 
 @dataclass(frozen=True)
@@ -111,22 +111,34 @@ def turn(arm: Family, joint: int, angles: Array) -> Array:
     return rotation_about(arm.chain.directions[joint], angles)
 
 
+def posture(arm: Family, joints: Array) -> tuple[Array, Array]:
+    """How joints (…, 6) hold upper arm and forearm.
+
+    Returns
+    -------
+    bend : (…) of the elbow in rad about axis 2, 0 where the arm is straight
+    out : (…) in mm: how far the forearm's end is in front of axis 1, negative behind it
+    """
+    start_1, start_2 = link_angles(arm)
+    first, second = arm.lengths
+    upper = start_1 + joints[..., 1]
+    bend = start_2 - start_1 + float(np.sign(arm.chain.directions[2] @ arm.frame[:, 1])) * joints[..., 2]
+    shoulder = (arm.shoulder - arm.chain.points[0]) @ arm.frame[:, 0]
+    return bend, shoulder + first * np.sin(upper) + second * np.sin(upper + bend)
+
+
 def distance_to_singularity(arm: Family, joints: Array) -> Array:
     """How far joints (…, 6) are from a pose in which the arm loses a direction: 0 at it, at most 1.
 
     The least of three: the sine of the angle between axes 4 and 6 (wrist), that of the bend of the elbow, and the
     distance of the wrist from where axis 1 cannot move it, as a share of the arm's length.
     """
-    sign_3, sign_4 = (float(np.sign(arm.chain.directions[i] @ arm.frame[:, 1])) for i in (2, 3))
-    start_1, start_2 = link_angles(arm)
-    first, second = arm.lengths
-    bend = start_2 - start_1 + sign_3 * joints[..., 2]
-    upper = start_1 + joints[..., 1]
-    x, _, z = arm.frame.T
-    out = (arm.shoulder - arm.chain.points[0]) @ x + first * np.sin(upper) + second * np.sin(upper + bend)
+    bend, out = posture(arm, joints)
     wrist = joints[..., 4] + (wrist_start(arm) if arm.spherical else -wrist_start(arm))
     if not arm.spherical:
+        sign_3, sign_4 = (float(np.sign(arm.chain.directions[i] @ arm.frame[:, 1])) for i in (2, 3))
+        x, _, z = arm.frame.T
         last = arm.wrist - arm.fourth
         total = joints[..., 1] + sign_3 * joints[..., 2] + sign_4 * joints[..., 3]
         out = out + np.hypot(last @ x, last @ z) * np.sin(np.arctan2(last @ x, last @ z) + total)
-    return np.minimum.reduce([np.abs(np.sin(wrist)), np.abs(np.sin(bend)), np.abs(out) / (first + second)])
+    return np.minimum.reduce([np.abs(np.sin(wrist)), np.abs(np.sin(bend)), np.abs(out) / sum(arm.lengths)])

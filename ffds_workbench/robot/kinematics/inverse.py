@@ -16,7 +16,7 @@ from .families import Family, link_angles, turn, wrist_height, wrist_start
 BRANCHES = 8
 _TOUCHING, _FREE = 1e-12, 1e-12
 """By how much a cosine may exceed 1 through rounding: a pose at the very end of the reach is still reached. And the
-sine below which two axes of the wrist lie on one line."""
+sine below which two axes of the wrist lie on one line (theory: some thousand times the rounding of doubles)."""
 
 
 def inverse(arm: Family, poses: Array) -> Array:

@@ -4,11 +4,11 @@
 `leaving` leads down to a seam and away, `transfers` through the air, and `remedies` says what would help.
 """
 from .course import Course
-from .failure import Failure
+from .failure import APPROACH, PROCESS, SEARCH, TRANSFER, Failure
 from .leaving import leaving, within_branch
 from .remedies import remedy
 from .seam_path import SeamPath, plan_path, replay
 from .transfers import transfer
 
-__all__ = ["Course", "Failure", "SeamPath", "leaving", "plan_path", "remedy", "replay", "transfer",
-           "within_branch"]
+__all__ = ["APPROACH", "PROCESS", "SEARCH", "TRANSFER", "Course", "Failure", "SeamPath", "leaving", "plan_path",
+           "remedy", "replay", "transfer", "within_branch"]

@@ -13,8 +13,8 @@ from ..clearance import Moving
 from ..kinematics import BRANCHES, inverse
 from .holds import LEAST_SINGULARITY, Flags, Holds
 
-REACH, LIMIT, SINGULARITY, COLLISION, MOTION, APPROACH, TRANSFER = (
-    "reach", "limit", "singularity", "collision", "motion", "approach", "transfer")
+REACH, LIMIT, SINGULARITY, COLLISION, MOTION = "reach", "limit", "singularity", "collision", "motion"
+APPROACH, TRANSFER, PROCESS, SEARCH = "approach", "transfer", "process", "search"
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Failure:
     ----------
     station : index from 0 on
     reason : "reach", "limit", "singularity", "collision", "motion" (of the joints from station to station),
-        "approach" or "transfer"
+        "approach", "transfer", "process" or "search"
     said : in words
     remedy : what would help, in words; None where nothing that was tried does
     """

@@ -14,19 +14,24 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from ...registration.arrays import Array, Index
+from ...registration.motions import motion
 from ..cells import Cell
 from ..clearance import Moving
 from ..kinematics import BRANCHES, distance_to_singularity, inverse
+from .course import Course
 
 Flags = NDArray[np.bool_]
 
 YAWS = 72
+"""Yaws about the wire if it is free: steps of 5° (unit: what time is worth; a way found on them is smoothed)."""
 LEAST_SINGULARITY = 0.05
-"""Yaws about the wire if it is free, and distance from singularity below which the arm is not led: its joints would
-race where the wire creeps."""
+"""Distance from singularity below which the arm is not led (unit): its joints would race where the wire creeps."""
 CARED_FOR = 20.0
-"""Clearance in mm beyond which more of it is worth nothing."""
+"""Clearance in mm beyond which more of it is worth nothing (unit: about as wide as a nozzle)."""
 _OFTEN = 0.7
+"""A lean is tried that is clear at this share of the stations at which the best lean is (unit: what time is worth)."""
+_CHUNK = 20_000
+"""Poses whose joints are sought at once (unit: what memory is worth; each takes a few kB on the way)."""
 _TURN = 2.0 * np.pi
 
 
@@ -87,11 +92,15 @@ def tips_at(torch: Array, positions: Array, leans: Array, yaws: Array) -> Array:
     """Poses (n, a, y, 4, 4) of the tip from torch frames (n, 3, 3) and positions (n, 3)."""
     lean = Rotation.from_euler("XY", leans).as_matrix()
     yaw = Rotation.from_euler("z", yaws).as_matrix()
-    tips = np.zeros((len(torch), len(leans), len(yaws), 4, 4))
-    tips[..., :3, :3] = np.einsum("nij,ajk,ykl->nayil", torch, lean, yaw, optimize=True)
-    tips[..., :3, 3] = positions[:, None, None]
-    tips[..., 3, 3] = 1.0
-    return tips
+    turned = np.einsum("nij,ajk,ykl->nayil", torch, lean, yaw, optimize=True)
+    return motion(turned, np.broadcast_to(positions[:, None, None], turned.shape[:-1]))
+
+
+def tips_along(course: Course, leans: Array, yaws: Array) -> Array:
+    """Poses (n, 4, 4) of the tip at the first n stations, with a lean (n, 2) and a yaw (n,) of its own at each."""
+    count = len(yaws)
+    lean, yaw = Rotation.from_euler("XY", leans).as_matrix(), Rotation.from_euler("z", yaws).as_matrix()
+    return motion(course.torch[:count] @ lean @ yaw, course.positions[:count])
 
 
 def holds_of(moving: Moving, cell: Cell, torch: Array, positions: Array, leans: Array) -> Holds:
@@ -107,7 +116,8 @@ def holds_of(moving: Moving, cell: Cell, torch: Array, positions: Array, leans: 
     tips = tips_at(torch, positions, leans, yaws)
     shape = tips.shape[:3]
     flat = tips.reshape(-1, 4, 4)
-    found = inverse(moving.arm.family, moving.flange(flat))
+    found = np.concatenate([inverse(moving.arm.family, moving.flange(flat[start : start + _CHUNK]))
+                            for start in range(0, len(flat), _CHUNK)])
     reached = ~np.isnan(found[..., 0])
     joints = lowest(found, moving.arm.limits[:, 0])
     within = reached & (joints <= moving.arm.limits[:, 1] + 1e-12).all(axis=-1)

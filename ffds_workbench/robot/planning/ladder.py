@@ -16,14 +16,17 @@ from .course import Course
 from .holds import CARED_FOR, YAWS, Flags, Holds, Turns, lowest
 
 _SPEED_SHARE = 0.9
-"""Share of the joints' speeds that a way along the grid of yaws may take; what comes of it is smoother still."""
+"""Share of the joints' speeds that a way along the grid of yaws may take; what comes of it is smoother still (unit)."""
 _TURN = 2.0 * np.pi
 _YAW_COST = 0.0005
-"""Of a step of yaw, beside the joints' own motion, whose cost is its length in rad."""
+"""Of a step of yaw, beside the joints' own motion, whose cost is its length in rad (unit: small, so that
+of equal ways that is taken which turns the torch less)."""
 _LEAN_COST, _CLEARANCE_COST, _SINGULAR_COST = 20.0, 3.0, 3.0
 """Of holding the torch so along the whole seam, in rad of joint motion: per rad² of lean, at no clearance, and at no
-distance from singularity; the latter fall to none at `CARED_FOR` and `_SOUND`."""
+distance from singularity; the latter fall to none at `CARED_FOR` and `_SOUND` (unit: what one is worth in terms of the
+other)."""
 _SOUND = 0.3
+"""Distance from singularity beyond which more of it is worth nothing (unit)."""
 
 
 @dataclass(frozen=True)

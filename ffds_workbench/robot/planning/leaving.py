@@ -11,7 +11,7 @@ from ..kinematics import inverse
 from .seam_path import branch_of
 
 _STEP = 4.0
-"""Distance in mm of the places on the way that are looked at."""
+"""Distance in mm of the places on the way that are looked at (unit: what time is worth)."""
 
 
 def leaving(moving: Moving, cell: Cell, tip: Array, joints: Array, distance: float) -> Array | None:

@@ -6,20 +6,22 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ...registration.arrays import Array
+from ...registration.motions import twist_motion
 from ..cells import Cell
 from ..clearance import Moving
 from .course import Course
-from .failure import COLLISION, LIMIT, MOTION, REACH, SINGULARITY, Failure
+from .failure import COLLISION, LIMIT, REACH, Failure
 from .holds import LEAST_SINGULARITY, holds_of, leans_of
 
 _PLACES = 7
-"""Stations that are tried: with the failing one the ends, and some in between."""
+"""Stations that are tried: with the failing one the ends, and some in between (unit: what time is worth)."""
 _TURNS = (15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0, 90.0, -90.0, 135.0, -135.0, 180.0)
 _SHIFTS = (100.0, 200.0, 300.0, 500.0)
 _STICK_OUTS = (3.0, 5.0, 8.0)
+"""Turns of the part in degrees, shifts of the robot and what the wire sticks out more in mm, in the order in which they
+are tried (unit: round numbers that people can set up)."""
 
 
 def remedy(moving: Moving, cell: Cell, course: Course, failure: Failure) -> str | None:
@@ -55,10 +57,7 @@ def _changes(moving: Moving, cell: Cell, reason: str, middle: Array) -> Iterator
                 base = cell.base.copy()
                 base[:3, 3] += way * shift * towards
                 yield f"the robot {shift:g} mm {word}", replace(moving, base=base), cell
-    if reason in (REACH, LIMIT, SINGULARITY, MOTION, COLLISION):
-        for degrees in _TURNS:
-            # The part turned by an angle is the robot turned back about it; the cell's solids turn with the robot.
-            turn = np.eye(4)
-            turn[:3, :3] = Rotation.from_euler("z", -degrees, degrees=True).as_matrix()
-            turn[:3, 3] = middle - turn[:3, :3] @ middle
-            yield f"the part turned by {degrees:g}° about z", replace(moving, base=turn @ cell.base), cell
+    for degrees in _TURNS:
+        # The part turned by an angle is the robot turned back about it; the cell's solids turn with the robot.
+        back = twist_motion(np.array([0.0, 0.0, -np.radians(degrees), 0.0, 0.0, 0.0]), middle)
+        yield f"the part turned by {degrees:g}° about z", replace(moving, base=back @ cell.base), cell

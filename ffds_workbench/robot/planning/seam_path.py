@@ -6,21 +6,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import solveh_banded
+from scipy.sparse import diags
 from scipy.spatial.transform import Rotation, Slerp
 
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from ..cells import Cell
 from ..clearance import Moving
 from ..kinematics import distance_to_singularity, inverse, wrapped
 from .course import Course
 from .failure import LIMIT, MOTION, REACH, Failure, why
-from .holds import LEAST_SINGULARITY, Flags, Holds, Turns, holds_of, leans_of, tips_at, turns_of
+from .holds import LEAST_SINGULARITY, Flags, Holds, Turns, holds_of, leans_of, tips_along, turns_of
 from .ladder import Way, cheapest
 
 TOLD_CLEARANCE = 100.0
-"""Clearance in mm up to which it is measured for the report."""
+"""Clearance in mm up to which it is measured for the report (unit: farther off is free)."""
 _SMOOTHINGS = (300.0, 30.0, 3.0)
-"""Weights of the second differences of yaw and lean, the smoothest first: the first that keeps all limits is taken."""
+"""Weights of the second differences of yaw and lean, the smoothest first: the first that keeps all limits is taken
+(unit: how many are tried is what time is worth)."""
 
 
 @dataclass(frozen=True)
@@ -85,8 +88,7 @@ def _one_way(moving: Moving, cell: Cell, course: Course, holds: Holds, sound: Fl
     rough = _followed(moving, course, yaws, lean, branch)
     trouble = _trouble(moving, cell, course, rough)
     for weight in _SMOOTHINGS if len(holds.yaws) > 1 or len(holds.leans) > 1 else ():
-        smooth = _followed(moving, course, _smoothed(yaws, weight),
-                           np.stack([_smoothed(column, weight) for column in lean.T], axis=1), branch)
+        smooth = _followed(moving, course, _smoothed(yaws, weight), _smoothed(lean, weight), branch)
         if _trouble(moving, cell, course, smooth) is None:
             return smooth
     return rough if trouble is None else replace(rough, failure=trouble)
@@ -115,8 +117,7 @@ def _clear_way(moving: Moving, cell: Cell, course: Course, holds: Holds, sound: 
 
 def _followed(moving: Moving, course: Course, yaws: Array, leans: Array, branch: int) -> SeamPath:
     """The path with given yaws (n,) and leans (n, 2), its joints without jumps."""
-    tips = np.concatenate([tips_at(course.torch[i : i + 1], course.positions[i : i + 1], leans[i : i + 1],
-                                   yaws[i : i + 1]).reshape(1, 4, 4) for i in range(len(yaws))])
+    tips = tips_along(course, leans, yaws)
     joints = led(moving, tips, branch)
     return SeamPath(tips, joints, wrapped(yaws), leans, distance_to_singularity(moving.arm.family, joints),
                     moving.all(joints, TOLD_CLEARANCE).distances)
@@ -172,18 +173,15 @@ def halfway(tips: Array) -> Array:
 
 def moved_along(tips: Array, times: Array, at: Array) -> Array:
     """Poses at the times ``at`` (m,) of moves that pass poses (n, 4, 4) at ``times`` (n,), straight in between."""
-    result = np.tile(np.eye(4), (len(at), 1, 1))
-    result[:, :3, :3] = Slerp(times, Rotation.from_matrix(tips[:, :3, :3]))(at).as_matrix()
-    result[:, :3, 3] = np.stack([np.interp(at, times, column) for column in tips[:, :3, 3].T], axis=1)
-    return result
+    turned = Slerp(times, Rotation.from_matrix(tips[:, :3, :3]))(at).as_matrix()
+    return motion(turned, np.stack([np.interp(at, times, column) for column in tips[:, :3, 3].T], axis=1))
 
 
 def _ended(moving: Moving, course: Course, way: Way, yaws: Array, leans: Array, failure: Failure) -> SeamPath:
     """As far as a way gets; beyond, the torch is held as the seam says."""
     count, got = len(course.positions), way.length
-    path = SeamPath(tips_at(course.torch, course.positions, np.zeros((1, 2)), np.zeros(1))[:, 0, 0],
-                    np.full((count, 6), np.nan), np.zeros(count), np.zeros((count, 2)), np.zeros(count),
-                    np.full(count, np.nan), failure)
+    path = SeamPath(motion(course.torch, course.positions), np.full((count, 6), np.nan), np.zeros(count),
+                    np.zeros((count, 2)), np.zeros(count), np.full(count, np.nan), failure)
     if got:
         begun = _followed(moving, course, yaws, leans, int(way.branch[0]))
         for name in ("tips", "joints", "yaws", "leans", "singularity", "clearance"):
@@ -192,13 +190,14 @@ def _ended(moving: Moving, course: Course, way: Way, yaws: Array, leans: Array, 
 
 
 def _smoothed(values: Array, weight: float) -> Array:
-    """Values (n,) with their second differences weighed (Whittaker 1923, Hodrick and Prescott 1997)."""
+    """Values (n,) or (n, k) with their second differences weighed (Whittaker 1923, Hodrick and Prescott 1997)."""
     count = len(values)
     if count < 3:
         return values
-    second = np.diff(np.eye(count), 2, axis=0)
-    normal = np.eye(count) + weight * second.T @ second
-    band = np.stack([np.append(np.diagonal(normal, k), np.zeros(k)) for k in range(3)])
+    second = diags((1.0, -2.0, 1.0), (0, 1, 2), (count - 2, count))
+    roughness = second.T @ second
+    band = np.stack([np.append(weight * roughness.diagonal(k), np.zeros(k)) for k in range(3)])
+    band[0] += 1.0
     result: Array = solveh_banded(band, values, lower=True)
     return result
 

@@ -20,7 +20,10 @@ _STEP = np.radians(3.0)
 _GROWTH = np.radians(25.0)
 _TRIES, _SHORTENINGS = 400, 60
 """Largest joint step in rad between places that are looked at; how far a tree grows at once; how often at most it
-grows, and how often a shorter way is tried."""
+grows, and how often a shorter way is tried (unit: what time is worth). At a reach of 1.4 m a step of joint 1 is 73 mm,
+and nothing is looked at in between."""
+_AROUND = np.radians(60.0)
+"""How far in rad beyond both ends a way is sought (unit)."""
 
 
 def transfer(start: Array, end: Array, limits: Array, free: Free, seed: int = 1) -> Array | None:
@@ -34,9 +37,9 @@ def transfer(start: Array, end: Array, limits: Array, free: Free, seed: int = 1)
         return np.stack([start, end])
     rng = np.random.default_rng(seed)
     low, high = limits.T
-    # What lies around both ends is tried first: transfers are short, and limits wide.
-    near_low = np.maximum(low, np.minimum(start, end) - np.radians(60.0))
-    near_high = np.minimum(high, np.maximum(start, end) + np.radians(60.0))
+    # Only what lies around both ends is tried: transfers are short, and limits wide.
+    near_low = np.maximum(low, np.minimum(start, end) - _AROUND)
+    near_high = np.minimum(high, np.maximum(start, end) + _AROUND)
     trees = (_Tree(start), _Tree(end))
     for number in range(_TRIES):
         goal = rng.uniform(near_low, near_high)

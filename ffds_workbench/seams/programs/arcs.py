@@ -10,9 +10,11 @@ from scipy.spatial.transform import Rotation, Slerp
 from ...registration.arrays import Array
 
 TOLERANCE = 0.02
-"""In mm: how far stations may lie off the circle. Stations follow the seam within 0.05 mm; this keeps well within."""
+"""In mm: how far stations may lie off the circle. Stations follow the seam within 0.05 mm; this keeps well
+within (unit)."""
 _TURN = np.radians(0.5)
-"""How far in rad the torch may be turned off what the controller makes of an arc: an even turn from start to end."""
+"""How far in rad the torch may be turned off what the controller makes of an arc: an even turn from start to end
+(unit)."""
 _WIDEST, _FEWEST_STEPS = np.radians(170.0), 4
 """Controllers take no arcs of half a turn and more; fewer steps are as well told as lines."""
 
@@ -52,7 +54,7 @@ def _longest(poses: Array, start: int) -> int | None:
 
 def _is_arc(poses: Array) -> bool:
     points = poses[:, :3, 3]
-    a, b, c = points[0], points[len(points) // 2 if len(points) % 2 else (len(points) - 1) // 2], points[-1]
+    a, b, c = points[0], points[(len(points) - 1) // 2], points[-1]
     normal = np.cross(b - a, c - a)
     size = np.linalg.norm(normal)
     if size < 1e-6:

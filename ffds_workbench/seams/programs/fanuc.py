@@ -7,12 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ...registration.arrays import Array
 from .angles import kuka_angles
 from .moves import (AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name,
-                    table_number)
+                    table_numbers)
 
 NAME_LIMIT = 32
 USUAL_CONFIGURATION = "N U T, 0, 0, 0"
@@ -46,8 +44,7 @@ def ls_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> s
     ------
     InputError : a tool or base is given by name
     """
-    frame, tool = (table_number("FANUC", what, choice) for what, choice in (("base", settings.base),
-                                                                            ("tool", settings.tool)))
+    frame, tool = table_numbers("FANUC", settings)
     lines = ["  !Welds seams of an as-built model ;", *_said(settings.base, f"UFRAME {frame}"),
              *_said(settings.tool, f"UTOOL {tool}"), f"  UFRAME_NUM={frame} ;", f"  UTOOL_NUM={tool} ;"]
     places: list[str] = []
@@ -107,5 +104,5 @@ def _places(seam: SeamMoves, first: int, frame: int, tool: int) -> list[str]:
 
 
 def _joints(joints: Array) -> list[str]:
-    texts = [f"\tJ{i}= {angle} deg" for i, angle in enumerate(numbers(np.asarray(joints), 5), 1)]
+    texts = [f"\tJ{i}= {angle} deg" for i, angle in enumerate(numbers(joints, 5), 1)]
     return [",".join(texts[:3]) + ",", ",".join(texts[3:])]

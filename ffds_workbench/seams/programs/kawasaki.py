@@ -8,6 +8,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from .angles import from_kuka_angles, kawasaki_angles
 from .moves import AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name
 
@@ -63,6 +64,5 @@ def _frame(word: str, choice: FrameChoice) -> list[str]:
         raise InputError(f"AS names its frames: give a name or X,Y,Z,A,B,C instead of {choice}.")
     if isinstance(choice, str):
         return [f"  {word} {choice}"]
-    pose = np.eye(4)[None]
-    pose[0, :3, :3], pose[0, :3, 3] = from_kuka_angles(np.array([choice[3:]]))[0], choice[:3]
+    pose = motion(from_kuka_angles(np.array([choice[3:]])), np.array([choice[:3]]))
     return [f"  {word} TRANS({pose_texts(pose)[0].replace(' ', ',')})"]

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from ..measured import MeasuredSeam
 
 FrameChoice = int | str | tuple[float, ...] | None
@@ -160,8 +161,7 @@ class PlannedMoves:
 def moves(seam: MeasuredSeam, settings: RobotSettings) -> SeamMoves:
     """The moves along a seam."""
     stations = seam.stations
-    poses = np.tile(np.eye(4), (len(stations), 1, 1))
-    poses[:, :3, :3], poses[:, :3, 3] = stations.torch, stations.positions
+    poses = motion(stations.torch, stations.positions)
     spacing = float(np.linalg.norm(np.diff(stations.positions, axis=0), axis=1).min())
     title = f"{seam.name} ({stations.seam.kind}), {stations.length:.1f} mm"
     return SeamMoves(seam.name, title, _above(poses[0], settings.approach), poses,
@@ -175,13 +175,17 @@ def _above(pose: Array, distance: float) -> Array:
     return moved
 
 
-def table_number(maker: str, what: str, choice: FrameChoice) -> int:
-    """The number of a tool or base in a controller's table: the given one, or 1 where a pose must be put there.
+def table_numbers(maker: str, settings: RobotSettings) -> tuple[int, int]:
+    """The numbers of base and tool in a controller's tables: the given ones, or 1 where a pose must be put there.
 
     Raises
     ------
-    InputError : it is a name
+    InputError : one of them is a name
     """
+    return _table_number(maker, "base", settings.base), _table_number(maker, "tool", settings.tool)
+
+
+def _table_number(maker: str, what: str, choice: FrameChoice) -> int:
     if isinstance(choice, str):
         raise InputError(f"{maker} controllers number their {what}s: give a number or X,Y,Z,A,B,C instead of "
                          f"'{choice}'.")

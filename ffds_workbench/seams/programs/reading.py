@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...registration.arrays import Array
+from ...registration.motions import motion
 from .angles import from_kawasaki_angles, from_kuka_angles
 
 _NUMBER = r"(-?\d*\.?\d+)"
@@ -73,6 +74,4 @@ def _as(text: str) -> tuple[Mapping[str, Array | None], list[str]]:
 
 
 def _pose(position: list[float], rotation: Array) -> Array:
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = rotation[0], position
-    return pose
+    return motion(rotation[0], np.array(position))

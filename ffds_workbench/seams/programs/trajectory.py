@@ -22,14 +22,14 @@ def add_trajectories(document: FreeCAD.Document, seams: Sequence[SeamMoves], set
     tool = settings.tool if isinstance(settings.tool, int) else _NAMED_TOOL
     base = settings.base if isinstance(settings.base, int) else 0
     for number, seam in enumerate(seams, 1):
-        last = len(seam.poses)
+        first, last = -len(seam.way) - 1, len(seam.poses) - 1
         waypoints = []
-        for i, pose in enumerate(seam.all_poses):
-            air = i in (0, 1, last + 1)
+        for station, pose in enumerate(seam.whole_way, first):
+            air, i = not 0 < station <= last, station - first
             waypoints.append(Robot.Waypoint(FreeCAD.Placement(FreeCAD.Matrix(*pose.ravel().tolist())),
-                                            type="PTP" if i == 0 else "LIN", name=f"S{number}P{i}",
-                                            vel=AIR_VELOCITY if air else settings.velocity, cont=1 < i < last,
-                                            tool=tool, base=base))
+                                            type="PTP" if station < 0 else "LIN", name=f"S{number}P{i}",
+                                            vel=AIR_VELOCITY if air else seam.velocity_to(station, settings),
+                                            cont=0 < station < last, tool=tool, base=base))
         item = document.addObject("Robot::TrajectoryObject", f"Seam{number}")
         item.Label = seam.title
         item.Trajectory = Robot.Trajectory(waypoints)

@@ -10,7 +10,7 @@ from datetime import datetime
 
 from .angles import kuka_angles
 from .moves import (AIR_VELOCITY, BEFORE, FrameChoice, RobotSettings, SeamMoves, numbers, plain, program_name,
-                    table_number)
+                    table_numbers)
 
 NAME_LIMIT = 32
 USUAL_CONFIGURATION = "1,0,0,0,0,0"
@@ -24,8 +24,7 @@ def jbi_text(stem: str, seams: Sequence[SeamMoves], settings: RobotSettings) -> 
     ------
     InputError : a tool or base is given by name
     """
-    frame, tool = (table_number("Yaskawa", what, choice) for what, choice in (("base", settings.base),
-                                                                             ("tool", settings.tool)))
+    frame, tool = table_numbers("Yaskawa", settings)
     lines = ["'Welds seams of an as-built model", *_said(settings.base, f"USER {frame}"),
              *_said(settings.tool, f"TOOL {tool}")]
     places: list[str] = []

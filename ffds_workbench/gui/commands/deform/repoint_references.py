@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...running import call, name_of, tell
 from ...selection import chosen
 from ...translating import tr
-from ..command import Command, one_part
+from ..command import Command, one_as_built
 
 
 class RepointReferences(Command):
@@ -22,14 +22,13 @@ class RepointReferences(Command):
 
     def active(self) -> bool:
         """With one as-built part selected."""
-        part = one_part(chosen())
-        return part is not None and "LatticeSizes" in part.PropertiesList
+        return one_as_built(chosen()) is not None
 
     def run(self) -> None:
         """Re-point, and say what was left as it was."""
         from ....objects.repointing import references
 
-        part = one_part(chosen())
+        part = one_as_built(chosen())
         call(part.Document, "Re-point references", f"repoint({name_of(part)})")
         left = ", ".join(dict.fromkeys(reference.item.Label for reference in references(part)))
         if left:

@@ -10,7 +10,7 @@ from ...qt import QtWidgets
 from ...running import name_of, record
 from ...selection import chosen
 from ...translating import tr
-from ..command import Command, one_part
+from ..command import Command, one_as_built
 
 _FORMATS = "HTML (*.html);;PDF (*.pdf)"
 
@@ -28,12 +28,11 @@ class ExportReport(Command):
 
     def active(self) -> bool:
         """With one as-built part selected."""
-        part = one_part(chosen())
-        return part is not None and "LatticeSizes" in part.PropertiesList
+        return one_as_built(chosen()) is not None
 
     def run(self) -> None:
         """Ask for a file and write it in the background; its pictures show the side that is seen now, and the other."""
-        part = one_part(chosen())
+        part = one_as_built(chosen())
         path, kind = QtWidgets.QFileDialog.getSaveFileName(
             Gui.getMainWindow(), tr("Export report"), f"{part.Label.replace(' ', '_')}.html", _FORMATS)
         if not path:

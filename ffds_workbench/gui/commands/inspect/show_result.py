@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...selection import chosen
-from ..command import Command, one_part
+from ..command import Command, one_as_built
 
 
 class ShowResult(Command):
@@ -19,11 +19,10 @@ class ShowResult(Command):
 
     def active(self) -> bool:
         """With one as-built part selected."""
-        part = one_part(chosen())
-        return part is not None and "LatticeSizes" in part.PropertiesList
+        return one_as_built(chosen()) is not None
 
     def run(self) -> None:
         """Open the page."""
         from ...panels.result_panel import open_page
 
-        open_page(one_part(chosen()))
+        open_page(one_as_built(chosen()))

@@ -22,7 +22,8 @@ _FARTHEST = 3.0
 """Over the typical distance: what is matched for the first look (unit)."""
 _BULK, _LEAST_EXTENT = 0.9, 0.02
 """Twice this quantile of the distances of points from their median is the extent of a scan; over the size of the part,
-that of a scan that cannot tell how the part lies (unit: inches for millimetres are a twenty-fifth, metres less)."""
+that of a scan that cannot tell how the part lies (unit: metres for millimetres are a thousandth; inches, a
+twenty-fifth, are not found by this)."""
 _MOST_POINTS, _REACH = 0.9, 2.5
 """Quantile of the matched heights, and how many times as far some of the part may have moved (unit)."""
 _REACH_IN_NOISES = 6.0

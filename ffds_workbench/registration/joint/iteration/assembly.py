@@ -33,12 +33,13 @@ from itertools import product
 import numpy as np
 
 from ...arrays import Array
+from ...splines import cubic
 from ..body_field import add_body_rows
 from ..data import Borders, CellHeights
 from ..linear import NormalEquations
 from ..priors import COMPONENTS
 from ..problem import Problem
-from ..surfaces import Jet, cubic, normals
+from ..surfaces import Jet, normals
 from .state import State
 
 

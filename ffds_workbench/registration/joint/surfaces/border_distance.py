@@ -14,8 +14,8 @@ from .cells import SpanGrid
 from .lattices import Lattices
 
 _BORDER_PIECE = 0.2467
-"""Of the side of a cell: straight pieces along borders that are this long follow bends as narrow as two cells to a
-thousandth of a cell (theory: sagitta). No ratio of whole numbers: borders are whole numbers of cells long, and rounding
+"""Of the side of a cell: straight pieces along borders that are this long follow a radius of two cells to 0.004 of a
+cell (theory: the sagitta, L²/8R). No ratio of whole numbers: borders are whole numbers of cells long, and rounding
 must not choose how many pieces there are."""
 
 

@@ -13,24 +13,7 @@ import numpy as np
 
 from ...arrays import Array, Index
 from ...face_geometry import FaceGeometry
-from ...splines import DEGREE, SplineSurface
-
-
-def cubic(x: Array, derivative: int = 0) -> Array:
-    """The four uniform cubic B-splines on a span of unit length, at x in [0, 1]: (n,) to (n, 4).
-
-    Derivatives are with respect to x. NURBS Book, section 2.4, on equidistant knots.
-
-    Parameters
-    ----------
-    derivative : order of the derivative
-    """
-    y = 1.0 - x
-    if derivative == 0:
-        return np.stack([y**3, 3 * x**3 - 6 * x**2 + 4, 3 * y**3 - 6 * y**2 + 4, x**3], axis=-1) / 6
-    if derivative == 1:
-        return np.stack([-(y**2), 3 * x**2 - 4 * x, 4 * y - 3 * y**2, x**2], axis=-1) / 2
-    return np.stack([y, 3 * x - 2, 3 * y - 2, x], axis=-1)
+from ...splines import DEGREE, SplineSurface, cubic
 
 
 def products(x: Array, y: Array, du: int = 0, dv: int = 0) -> Array:

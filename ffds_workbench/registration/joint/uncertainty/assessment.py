@@ -88,7 +88,7 @@ def _edges(problem: Problem, state: State, covariance: Array, errors: Array, see
     first, last = (np.concatenate([np.full(len(edge.points), edge.faces[k]) for edge in edges]) for k in (0, -1))
     samples = places_on_faces(part.faces, lattices, first, np.concatenate([edge.uv[0] for edge in edges]))
     points = samples.nominal[0] + samples.displacement(state.control_points)
-    near = seen.edge_near(float(problem.margin[np.isfinite(problem.margin)].max()))  # infinite on faces without points
+    near = seen.edge_near(problem.widest_margin)
     gaps = [seen.gap_of(face, nominal) for face in (first, last)]
     gap = np.maximum(np.minimum(*gaps) - near, 0.0)
     flags = _better(seen.flags(gaps[0], first, near), seen.flags(gaps[1], last, near))

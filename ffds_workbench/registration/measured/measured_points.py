@@ -12,15 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import Array, Index
-from .joint.iteration import ShapeMatrices, State, prior_equations, start
-from .joint.linear import FrontCholesky, NormalEquations
-from .joint.prior_trust import prior_cost, update_prior_trust
-from .joint.priors import COMPONENTS
-from .joint.problem import Problem, make_problem
-from .joint.settings import JointSettings, Stage
-from .joint.surfaces import FacePlaces, JointPart, places_on_faces
-from .splines import SplineSurface
+from ..arrays import Array, Index
+from ..joint.iteration import ShapeMatrices, State, prior_equations, start
+from ..joint.linear import FrontCholesky, NormalEquations
+from ..joint.prior_trust import prior_cost, update_prior_trust
+from ..joint.priors import COMPONENTS
+from ..joint.problem import Problem, make_problem
+from ..joint.settings import JointSettings, Stage
+from ..joint.surfaces import FacePlaces, JointPart, places_on_faces
+from ..splines import SplineSurface
 
 _ITERATIONS = 8
 """Gauss-Newton steps (unit: the last ones move by less than a thousandth of the first)."""
@@ -87,9 +87,9 @@ def register_points(part: JointPart, rows: MeasuredRows, surface: Array, setting
     state = start(problem)
     stage = replace(_SOFT, allowance=min(1.0, len(rows.value) / _SHAPES_OF_A_SCAN))
     for _ in range(_ITERATIONS):
-        factor = FrontCholesky(problem.pattern.layout, (equations := _equations(problem, state, places, rows)).blocks)
-        step = factor.solve(equations.right.ravel()).reshape(-1, 3)
-        moved = state.control_points + step
+        equations = _equations(problem, state, places, rows)
+        step = FrontCholesky(problem.pattern.layout, equations.blocks).solve(equations.right.ravel())
+        moved = state.control_points + step.reshape(-1, 3)
         state = replace(state, control_points=moved,
                         cache=replace(state.cache, matrices=ShapeMatrices.of(problem, moved)))
         state = update_prior_trust(problem, state, stage)
